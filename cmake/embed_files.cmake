@@ -1,0 +1,11 @@
+# Run by embed(): writes ${OUT}, a C++ file with the text of every file in ${FILES}, named relative to ${ROOT}.
+set(text "#include \"cmake/embedded.h\"\n\n")
+string(APPEND text "namespace eddy {\nextern const std::span<const EmbeddedFile> ${SYMBOL};\nnamespace {\n")
+string(APPEND text "const EmbeddedFile kFiles[] = {\n")
+foreach(file ${FILES})
+    file(RELATIVE_PATH name ${ROOT} ${file})
+    file(READ ${file} content)
+    string(APPEND text "{\"${name}\", R\"__embed__(${content})__embed__\"},\n")
+endforeach()
+string(APPEND text "};\n}  // namespace\nconst std::span<const EmbeddedFile> ${SYMBOL}{kFiles};\n}  // namespace eddy\n")
+file(WRITE ${OUT} "${text}")
