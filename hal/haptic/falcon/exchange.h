@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "hal/haptic/falcon/ftdi.h"
+#include "hal/haptic/falcon/protocol.h"
+#include "hal/haptic/falcon/transport.h"
+
+namespace eddy::falcon {
+
+/// Commands and replies over the transport: at most one command unanswered. When a reply stays out, the line
+/// is purged and the next command may go; what was on its way is forgotten.
+class Exchange {
+  public:
+    /// A reply takes about 1 ms; libnifalcon's users wait 5 to 20.
+    static constexpr Instant kReplyTime = std::chrono::milliseconds(10);
+
+    explicit Exchange(Transport& transport) : transport_(transport) {}
+
+    /// Forgets everything under way, but keeps the counters.
+    void reset();
+    /// Takes in what arrived. The newest reply, if any came.
+    std::optional<Reply> poll(Instant now);
+    /// A command may be sent: nothing is unanswered.
+    bool free() const { return step_ == Step::Free && transport_.out() != Transfer::Pending; }
+    /// Only while free().
+    void send(const Command& command, Instant now);
+
+    /// When the last packet with (part of) the newest reply arrived.
+    Instant reply_arrived_at() const { return reply_arrived_at_; }
+    /// Commands without reply since the last reply.
+    int misses() const { return misses_; }
+    std::uint64_t dropped_bytes() const { return finder_.dropped(); }
+    std::uint64_t line_faults() const { return line_faults_; }
+
+  private:
+    enum class Step { Free, Waiting, Purging };
+
+    Transport& transport_;
+    FrameFinder finder_;
+    RequestList purge_;
+    Step step_ = Step::Free;
+    Instant deadline_{0};
+    Instant reply_arrived_at_{0};
+    int misses_ = 0;
+    std::uint64_t line_faults_ = 0;
+};
+
+}  // namespace eddy::falcon
