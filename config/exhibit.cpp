@@ -1,0 +1,88 @@
+#include "config/exhibit.h"
+
+#include <algorithm>
+
+#include "cmake/embedded.h"
+#include "config/printer.h"
+#include "config/reader.h"
+#include "config/scene.h"
+
+namespace eddy {
+
+extern const std::span<const EmbeddedFile> kExhibitFiles;
+
+template <class Visitor>
+void describe(Visitor& v, Exhibit& e) {
+    v.value("scene", e.scene, "a shipped scene by name, or the path of a scene file");
+    v.value("display", e.display, "where the picture goes");
+    v.value("haptics", e.haptics, "which hand moves the held body");
+    v.value("state_dir", e.state_dir, "what outlives a restart: calibration, tuning, flight recordings");
+    v.value("run_dir", e.run_dir, "what lives as long as the program: status");
+    v.value("max_force_n", e.max_force_n, "no scene makes the hand feel more", between(0, 8));
+}
+
+namespace {
+
+void check(const Exhibit& exhibit, Findings& findings) {
+    const auto names = shipped_scenes();
+    if (!is_scene_file(exhibit.scene) && std::find(names.begin(), names.end(), exhibit.scene) == names.end())
+        findings.blame(place_of(findings.origins, "scene"), "scene",
+                       in_quotes(exhibit.scene) +
+                           " is neither a shipped scene nor a path; shipped, nearest first: " +
+                           listed(nearest_first(exhibit.scene, names)));
+    for (const auto& [key, path] :
+         {std::pair("state_dir", exhibit.state_dir), std::pair("run_dir", exhibit.run_dir)}) {
+        if (!path.is_absolute())
+            findings.blame(place_of(findings.origins, key), key,
+                           in_quotes(path.string()) + " must start with a slash");
+    }
+}
+
+// The files of a configuration folder, in the order in which they apply.
+std::vector<std::filesystem::path> layers_in(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    try {
+        if (std::filesystem::is_directory(folder / "conf.d")) {
+            for (const auto& entry : std::filesystem::directory_iterator(folder / "conf.d")) {
+                if (entry.path().extension() == ".toml") files.push_back(entry.path());
+            }
+        }
+        std::sort(files.begin(), files.end());
+        if (std::filesystem::exists(folder / "exhibit.toml"))
+            files.insert(files.begin(), folder / "exhibit.toml");
+    } catch (const std::filesystem::filesystem_error& error) {
+        throw ConfigError({diagnose({error.path1().string(), 0, 0}, "", error.code().message())});
+    }
+    return files;
+}
+
+LoadedExhibit load_layers(const std::vector<std::filesystem::path>& files) {
+    Node document = parse_toml(kExhibitFiles.front().text, std::string(kExhibitFiles.front().name));
+    for (const auto& file : files) merge(document, parse_toml(read_file(file.string()), file.string()));
+
+    LoadedExhibit loaded;
+    Findings findings;
+    read_document(document, loaded.exhibit, findings);
+    check(loaded.exhibit, findings);
+    if (!findings.diagnostics.empty()) throw ConfigError(std::move(findings.diagnostics));
+    loaded.origins = std::move(findings.origins);
+    return loaded;
+}
+
+}  // namespace
+
+LoadedExhibit load_exhibit(const std::filesystem::path& folder) {
+    return load_layers(layers_in(folder));
+}
+
+LoadedExhibit load_exhibit_file(const std::filesystem::path& file) {
+    return load_layers({file});
+}
+
+std::string print_exhibit(Exhibit exhibit, const Origins* origins) {
+    Printer printer(origins);
+    describe(printer, exhibit);
+    return printer.text();
+}
+
+}  // namespace eddy

@@ -1,0 +1,59 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "config/value.h"
+
+namespace eddy {
+
+enum class DisplayChoice { Auto, Kms, Headless };
+enum class HapticsChoice { Auto, Falcon, Emulated, None };
+
+inline constexpr Word<DisplayChoice> kDisplayChoices[] = {
+    {DisplayChoice::Auto, "auto", "the screen if there is one"},
+    {DisplayChoice::Kms, "kms", "the screen, straight from the kernel"},
+    {DisplayChoice::Headless, "headless", "no screen"},
+};
+inline constexpr Word<HapticsChoice> kHapticsChoices[] = {
+    {HapticsChoice::Auto, "auto", "the Falcon if there is one"},
+    {HapticsChoice::Falcon, "falcon", "the Falcon"},
+    {HapticsChoice::Emulated, "emulated", "a simulated hand"},
+    {HapticsChoice::None, "none", "no hand"},
+};
+
+constexpr std::span<const Word<DisplayChoice>> words_of(DisplayChoice) {
+    return kDisplayChoices;
+}
+constexpr std::span<const Word<HapticsChoice>> words_of(HapticsChoice) {
+    return kHapticsChoices;
+}
+
+/// What an exhibit machine is set to. exhibit.cpp has each key's meaning and range, exhibit.toml its value.
+struct Exhibit {
+    std::string scene = "jet";  ///< as load_scene() takes it
+    DisplayChoice display = DisplayChoice::Auto;
+    HapticsChoice haptics = HapticsChoice::Auto;
+    std::filesystem::path state_dir = "/var/lib/eddy";
+    std::filesystem::path run_dir = "/run/eddy";
+    double max_force_n = 4.0;
+    bool operator==(const Exhibit&) const = default;
+};
+
+/// An exhibit's settings and where each was written.
+struct LoadedExhibit {
+    Exhibit exhibit;
+    Origins origins;
+};
+
+/// Merges what the binary ships (config/exhibit.toml), `folder`/exhibit.toml and `folder`/conf.d/*.toml in
+/// the order of their names; the later wins, key by key. Files and folders that do not exist are skipped.
+/// Throws ConfigError, with everything that is wrong.
+LoadedExhibit load_exhibit(const std::filesystem::path& folder = "/etc/eddy");
+
+/// What `file` alone would set, merged over what the binary ships. Throws as load_exhibit() does.
+LoadedExhibit load_exhibit_file(const std::filesystem::path& file);
+
+/// The settings as TOML; with `origins`, a comment after each value says where it came from.
+std::string print_exhibit(Exhibit exhibit, const Origins* origins = nullptr);
+
+}  // namespace eddy

@@ -1,0 +1,85 @@
+#include "config/scene.h"
+
+#include <algorithm>
+
+#include "cmake/embedded.h"
+#include "config/override.h"
+#include "config/printer.h"
+#include "config/reference.h"
+#include "config/scene_check.h"
+#include "config/scene_schema.h"
+
+namespace eddy {
+
+extern const std::span<const EmbeddedFile> kSceneFiles;
+
+namespace {
+
+// "jet" for config/scenes/jet.toml.
+std::string_view scene_name(const EmbeddedFile& file) {
+    const std::string_view name = file.name.substr(file.name.rfind('/') + 1);
+    return name.substr(0, name.rfind('.'));
+}
+
+LoadedScene read_scene_in(const std::filesystem::path& folder, std::string_view text, const std::string& file,
+                          std::span<const std::string> overrides) {
+    Node document = parse_toml(text, file);
+    Findings findings;
+    int number = 0;
+    for (const std::string& text_of_one : overrides)
+        apply_override(document, text_of_one, ++number, findings.diagnostics);
+
+    LoadedScene loaded;
+    read_document(document, loaded.scene, findings);
+    resolve(loaded.scene, findings.origins, folder);
+    check(loaded.scene, findings);
+    if (!findings.diagnostics.empty()) throw ConfigError(std::move(findings.diagnostics));
+    loaded.origins = std::move(findings.origins);
+    return loaded;
+}
+
+}  // namespace
+
+std::vector<std::string_view> shipped_scenes() {
+    std::vector<std::string_view> names;
+    for (const EmbeddedFile& file : kSceneFiles) names.push_back(scene_name(file));
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool is_scene_file(std::string_view path_or_name) {
+    return path_or_name.find('/') != std::string_view::npos || path_or_name.ends_with(".toml");
+}
+
+LoadedScene load_scene(const std::string& path_or_name, std::span<const std::string> overrides) {
+    if (is_scene_file(path_or_name)) return read_scene(read_file(path_or_name), path_or_name, overrides);
+    for (const EmbeddedFile& file : kSceneFiles) {
+        if (scene_name(file) == path_or_name)
+            return read_scene_in(std::filesystem::current_path(), file.text, std::string(file.name),
+                                 overrides);
+    }
+    const std::string choice = listed(nearest_first(path_or_name, shipped_scenes()));
+    throw ConfigError({diagnose({path_or_name, 0, 0}, "",
+                                "no shipped scene has this name; shipped, nearest first: " + choice +
+                                    "; a scene file is named with a slash or with .toml at its end")});
+}
+
+LoadedScene read_scene(std::string_view text, const std::string& file,
+                       std::span<const std::string> overrides) {
+    return read_scene_in(std::filesystem::path(file).parent_path(), text, file, overrides);
+}
+
+std::string print_scene(Scene scene, const Origins* origins) {
+    Printer printer(origins);
+    describe(printer, scene);
+    return printer.text();
+}
+
+std::string schema_reference() {
+    Reference reference;
+    Scene scene;
+    describe(reference, scene);
+    return reference.text();
+}
+
+}  // namespace eddy

@@ -1,0 +1,15 @@
+#pragma once
+#include "config/reader.h"
+#include "config/scene.h"
+
+namespace eddy {
+
+/// Fills in the defaults that follow from other values, and makes path_csv absolute; `folder` is the scene
+/// file's.
+void resolve(Scene& scene, const Origins& origins, const std::filesystem::path& folder);
+
+/// Blames what no key shows alone: cells that are not cubes, keys that need or exclude each other, names used
+/// twice, things outside the tank. A rule about a key that is blamed already stays silent.
+void check(const Scene& scene, Findings& findings);
+
+}  // namespace eddy

@@ -1,0 +1,88 @@
+#include "config/exhibit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/config/complaints.h"
+
+namespace eddy {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// A configuration folder like /etc/eddy.
+class ExhibitFolder : public testing::Test {
+  protected:
+    void SetUp() override { std::filesystem::create_directories(folder_ / "conf.d"); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::string write(const std::string& name, const std::string& text) {
+        std::ofstream(folder_ / name) << text;
+        return (folder_ / name).string();
+    }
+
+    const std::filesystem::path folder_ =
+        testing::TempDir() + "eddy_" + testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST(Exhibit, FactoryFileSaysWhatTheStructSays) {
+    EXPECT_EQ(load_exhibit("/nonexistent").exhibit, Exhibit{});
+}
+
+TEST(Exhibit, FactoryFileSetsEveryKey) {
+    const LoadedExhibit loaded = load_exhibit("/nonexistent");
+    EXPECT_THAT(print_exhibit(loaded.exhibit, &loaded.origins), Not(HasSubstr("# default")));
+}
+
+TEST_F(ExhibitFolder, LaterFilesWinKeyByKeyAndOriginsAreKept) {
+    const std::string main = write("exhibit.toml", "scene = \"stir\"\nmax_force_n = 3\n");
+    const std::string second = write("conf.d/20-hall.toml", "max_force_n = 1\n");
+    write("conf.d/10-site.toml", "max_force_n = 2\nhaptics = \"none\"\n");
+    write("conf.d/30-off.toml.bak", "max_force_n = 7\n");
+    const LoadedExhibit loaded = load_exhibit(folder_);
+    EXPECT_EQ(loaded.exhibit.scene, "stir");
+    EXPECT_EQ(loaded.exhibit.max_force_n, 1.0);
+    EXPECT_EQ(loaded.exhibit.haptics, HapticsChoice::None);
+    const std::string text = print_exhibit(loaded.exhibit, &loaded.origins);
+    EXPECT_THAT(text, HasSubstr("scene = \"stir\"  # " + main + ":1:9\n"));
+    EXPECT_THAT(text, HasSubstr("max_force_n = 1  # " + second + ":1:15\n"));
+    EXPECT_THAT(text, HasSubstr("display = \"auto\"  # config/exhibit.toml:"));
+}
+
+TEST_F(ExhibitFolder, MistakesNameTheFileTheyAreIn) {
+    const std::string main = write("exhibit.toml", "scen = \"stir\"\n");
+    const std::string drop_in = write("conf.d/10-site.toml", "\nhaptics = \"falcn\"\nmax_force_n = 9\n");
+    EXPECT_THAT(
+        complaints([&] { load_exhibit(folder_); }),
+        ElementsAre(
+            drop_in + ":2:11: haptics: \"falcn\" is no word for this key; valid, nearest first: \"falcon\", "
+                      "\"auto\", \"none\", \"emulated\"",
+            drop_in + ":3:15: max_force_n: 9 is out of range: must be at least 0 and at most 8",
+            main + ":1:1: scen: unknown key; nearest valid key: scene"));
+}
+
+TEST_F(ExhibitFolder, UnknownSceneNamesTheNearest) {
+    const std::string file = write("exhibit.toml", "scene = \"sitr\"\n");
+    EXPECT_THAT(complaints([&] { load_exhibit_file(file); }),
+                ElementsAre(StartsWith(
+                    file + ":1:9: scene: \"sitr\" is neither a shipped scene nor a path; shipped, nearest "
+                           "first: \"stir\"")));
+}
+
+TEST_F(ExhibitFolder, FoldersMustBeAbsolute) {
+    const std::string file = write("exhibit.toml", "state_dir = \"state\"\n");
+    EXPECT_THAT(complaints([&] { load_exhibit_file(file); }),
+                ElementsAre(file + ":1:13: state_dir: \"state\" must start with a slash"));
+}
+
+TEST_F(ExhibitFolder, FileThatIsCheckedMustExist) {
+    EXPECT_THAT(complaints([&] { load_exhibit_file(folder_ / "absent.toml"); }),
+                ElementsAre(HasSubstr("absent.toml: cannot be read: No such file")));
+}
+
+}  // namespace
+}  // namespace eddy

@@ -1,0 +1,34 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/scene.h"
+
+namespace eddy {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Reference, TellsTypeRangeDefaultAndMeaning) {
+    const std::string text = schema_reference();
+    EXPECT_THAT(text, HasSubstr("\n## `[solver]`\n"));
+    EXPECT_THAT(text, HasSubstr("| `dt_s` | a number | above 0 and at most 1 | `0.02` | time step |\n"));
+    EXPECT_THAT(text, HasSubstr("\n## `[[body]]`\n"));
+    EXPECT_THAT(text, HasSubstr("\n## `[body.oscillation]`\n"));
+    EXPECT_THAT(
+        text,
+        HasSubstr(
+            "| `radius_m` | a number | above 0 and at most 1000 | must be given | radius of the sphere |"));
+    EXPECT_THAT(text, HasSubstr("`fast` trades accuracy for time; `precise` "));
+}
+
+TEST(Reference, RowsHaveFiveColumns) {
+    std::istringstream lines(schema_reference());
+    for (std::string line; std::getline(lines, line);) {
+        if (line.substr(0, 1) == "|") {
+            EXPECT_EQ(std::count(line.begin(), line.end(), '|'), 6) << line;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace eddy
