@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "firmware/haptic/force_gate.h"
+#include "firmware/haptic/snapshot.h"
+#include "hal/frames.h"
+#include "hal/haptic/haptic_device.h"
+
+namespace eddy {
+
+/// From the fluid: the force on the body for one pose of the hand.
+struct FluidSnapshot {
+    glm::dvec3 force_n{0.0};    ///< ON the body BY the fluid, before gain; same axes in Tank and Device frame
+    glm::dvec3 torque_nm{0.0};  ///< about the body's centre; for devices that turn, and for the record
+    std::uint64_t sequence = 0;  ///< counts up from 1; 0: nothing computed yet
+    Instant computed_for{0};     ///< PoseSnapshot::time of the pose it answers
+    Seconds fluid_period{0.0};   ///< measured time between fluid updates
+};
+
+/// To the fluid: where the virtual body is. Always inside the bounds it was given.
+struct PoseSnapshot {
+    glm::dvec3 position_m{0.0};    ///< Tank frame
+    glm::dvec3 velocity_m_s{0.0};  ///< Tank frame; zero across a bound the body rests against
+    std::uint64_t sequence = 0;    ///< counts ticks from 1; 0: the loop has not run
+    Instant time{0};               ///< tick that made it
+    std::uint8_t buttons = 0;      ///< as in HandleReading
+};
+
+/// To the loop: what the exhibit wants of it.
+struct HapticOrders {
+    bool enabled = false;               ///< force allowed; drop it on pause, scene change and fluid reset
+    double gain = 1.0;                  ///< newtons on the hand per newton on the body
+    TankFromDevice tank_from_device{};  ///< where the hand's workspace lies in the tank
+    glm::dvec3 lowest_m{0.0};           ///< corners of the box the body's centre may not leave, Tank frame
+    glm::dvec3 highest_m{0.0};
+    std::uint64_t resets = 0;  ///< count it up to clear a latched fault
+};
+
+/// From the loop: counters for the status page. Totals since start.
+struct LoopReport {
+    std::uint64_t ticks = 0;
+    std::uint64_t late = 0;    ///< ticks that began more than kLate after they were due
+    std::uint64_t missed = 0;  ///< ticks left out because their time had passed
+    Instant worst_late{0};
+    std::uint64_t impulses = 0;  ///< ticks whose raw force was limited before the filter
+    GateCounters gate{};
+    GateReason reason = GateReason::Disabled;
+    HapticState device = HapticState::Absent;
+    HapticCounters device_counters{};
+};
+
+/// Everything that passes between the loop and the rest of the program. Each has one writer and one reader.
+struct HapticExchange {
+    Snapshot<FluidSnapshot> fluid;  ///< fluid -> loop
+    Snapshot<HapticOrders> orders;  ///< exhibit -> loop
+    Snapshot<PoseSnapshot> pose;    ///< loop -> fluid
+    Snapshot<LoopReport> report;    ///< loop -> exhibit
+};
+
+}  // namespace eddy

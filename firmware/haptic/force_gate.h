@@ -1,0 +1,98 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string_view>
+
+#include "hal/clock.h"
+
+namespace eddy {
+
+/// Why the gate lets through what it does. The later, the graver; the last two stay until reset.
+enum class GateReason {
+    Open,
+    Starting,
+    FluidStale,
+    TooFast,
+    Disabled,
+    DeviceNotReady,
+    DeviceSilent,
+    NotFinite
+};
+
+struct GateSentence {
+    GateReason reason;
+    std::string_view sentence;
+};
+inline constexpr std::array<GateSentence, 8> kGateSentences{{
+    {GateReason::Open, "the force reaches the hand"},
+    {GateReason::Starting, "the force is being brought in gently"},
+    {GateReason::FluidStale, "the fluid has not answered in time: the force fades out"},
+    {GateReason::TooFast, "the handle moves faster than a hand should: no force"},
+    {GateReason::Disabled, "force is switched off"},
+    {GateReason::DeviceNotReady, "the device is not ready: no force"},
+    {GateReason::DeviceSilent, "the device stopped answering: no force until reset"},
+    {GateReason::NotFinite, "a number was not finite: no force until reset"},
+}};
+constexpr std::string_view to_string(GateReason reason) {
+    return kGateSentences[static_cast<std::size_t>(reason)].sentence;
+}
+
+/// CHAI3D drives the Falcon with at most 8 N (CDeltaDevices.cpp); no setting goes above.
+inline constexpr double kDeviceMaxForceN = 8.0;
+/// A handle faster than this has slipped or been thrown.
+inline constexpr double kFastestHandMS = 1.0;
+inline constexpr Seconds kSoftStart{1.0};
+inline constexpr Seconds kFade{0.100};
+/// Motors hold the last force while a tick is late; the first tick after must not spend the whole gap in one
+/// step.
+inline constexpr Seconds kLongestRise{0.005};
+
+struct GateLimits {
+    double max_force_n = kDeviceMaxForceN;
+    double slew_n_per_s = 100.0;  ///< 0.1 N a tick: a step above that is felt as a tap
+};
+
+struct GateInput {
+    glm::dvec3 force_n{0.0};     ///< wanted on the hand, Device frame
+    double speed_m_s = 0.0;      ///< of the handle; not finite if the reading was not
+    bool enabled = false;        ///< dead man's switch: held, running and allowed, said anew each tick
+    bool device_ready = false;   ///< Ready and has answered
+    bool device_silent = false;  ///< reply missing too long; latches
+    bool fluid_stale = true;     ///< fluid force too old to be believed
+    bool reset = false;          ///< forget the latch; it closes again at once if its cause persists
+};
+
+struct GateCounters {
+    std::uint64_t clamped = 0;     ///< ticks with a force above max_force_n
+    std::uint64_t slewed = 0;      ///< ticks held back by the slew limit
+    std::uint64_t non_finite = 0;  ///< ticks with a force or speed that was not finite
+};
+
+/// The only way to the motors. What comes out is finite, no longer than max_force_n, and moves no faster than
+/// slew_n_per_s except towards zero: at once for a fault, in at most kFade for a stale fluid. After any zero
+/// it returns over kSoftStart.
+class ForceGate {
+  public:
+    ForceGate() = default;
+    explicit ForceGate(const GateLimits& limits);
+
+    glm::dvec3 operator()(const GateInput& in, Seconds dt);
+
+    GateReason reason() const { return reason_; }  ///< of the last tick
+    const GateCounters& counters() const { return counters_; }
+
+  private:
+    GateReason judge(const GateInput& in);
+    glm::dvec3 fade(Seconds dt);
+    glm::dvec3 follow(const glm::dvec3& wanted_n, Seconds dt);
+
+    GateLimits limits_{};
+    GateReason latch_ = GateReason::Open;  // DeviceSilent or NotFinite once seen
+    GateReason reason_ = GateReason::Disabled;
+    double strength_ = 0.0;   // 0 shut .. 1 open: rises over kSoftStart, falls over kFade
+    glm::dvec3 sent_n_{0.0};  // last tick's output
+    GateCounters counters_{};
+};
+
+}  // namespace eddy

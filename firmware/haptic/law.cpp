@@ -1,0 +1,77 @@
+#include "firmware/haptic/law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace eddy {
+namespace {
+
+/// The hand as the fluid sees it: carried into the tank and kept inside the bounds.
+PoseSnapshot pose_in_tank(const LawState& state, const HapticInput& in) {
+    const HapticOrders& orders = in.orders;
+    const glm::dvec3 wanted = orders.tank_from_device.position(state.hand.position_m());
+    const glm::dvec3 inside = glm::min(glm::max(wanted, orders.lowest_m), orders.highest_m);
+    // Against a bound the body stands still, whatever the handle does: its velocity is that of the place it
+    // is shown at.
+    const glm::dvec3 free = glm::dvec3(glm::equal(wanted, inside));
+    return {.position_m = inside,
+            .velocity_m_s = free * orders.tank_from_device.velocity(state.hand.velocity_m_s()),
+            .sequence = state.ticks,
+            .time = in.now,
+            .buttons = state.buttons};
+}
+
+/// Age counts from arrival, not from computed_for: solving and reading back take two fluid periods of their
+/// own, and a fluid that answers steadily, however late, is alive.
+bool is_stale(const FluidSnapshot& fluid, Instant age) {
+    const Seconds three_periods = kFluidPeriodsAllowed * fluid.fluid_period;
+    const Seconds allowed =
+        std::isfinite(three_periods.count()) ? std::max(kFluidTimeout, three_periods) : kFluidTimeout;
+    return fluid.sequence == 0 || Seconds(age) > allowed;
+}
+
+}  // namespace
+
+LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
+    ++state.ticks;
+    const bool reset = in.orders.resets != state.resets;
+    state.resets = in.orders.resets;
+
+    // The hand. A reading that is not finite is not taken; the gate hears of it by a speed that is not finite
+    // either.
+    if (reset) state.answered = false;
+    const bool sound = !in.reading || state.hand.take(*in.reading);
+    if (in.reading && sound) {
+        state.buttons = in.reading->buttons;
+        state.answered = true;
+    }
+    const bool ready = in.device == HapticState::Ready && state.answered;
+    const bool silent = state.answered && in.silence >= kReplyTimeout;
+    if (!ready || silent) state.hand.forget();
+
+    // The fluid's newest answer, held until the next.
+    if (in.fluid.sequence != state.fluid_sequence) {
+        state.fluid_sequence = in.fluid.sequence;
+        state.fluid_arrived = in.now;
+    }
+
+    LawOutput out;
+    out.fluid_age = in.now - state.fluid_arrived;
+    out.raw_n = in.orders.gain * in.fluid.force_n;
+    out.filtered_n = state.filter(out.raw_n, in.fluid.fluid_period, dt);
+    const GateInput gate{.force_n = out.filtered_n,
+                         .speed_m_s = sound ? glm::length(state.hand.velocity_m_s())
+                                            : std::numeric_limits<double>::quiet_NaN(),
+                         .enabled = in.orders.enabled,
+                         .device_ready = ready,
+                         .device_silent = silent,
+                         .fluid_stale = is_stale(in.fluid, out.fluid_age),
+                         .reset = reset};
+    out.force_n = state.gate(gate, dt);
+    out.reason = state.gate.reason();
+    out.pose = pose_in_tank(state, in);
+    return out;
+}
+
+}  // namespace eddy

@@ -1,0 +1,73 @@
+#include "firmware/haptic/loop.h"
+
+#include <algorithm>
+
+namespace eddy {
+
+HapticLoop::HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace& trace,
+                       const HapticLoopSettings& settings)
+    : device_(device),
+      exchange_(exchange),
+      trace_(trace),
+      state_{.filter = ForceFilter(settings.filter), .gate = ForceGate(settings.gate)} {}
+
+void HapticLoop::tick(Instant now) {
+    const Seconds dt = report_.ticks > 0 ? now - last_ : kTick;
+    last_ = now;
+
+    device_.poll(now);
+    HapticInput in{.now = now,
+                   .reading = device_.read(),
+                   .device = device_.state(),
+                   .silence = device_.silence(now),
+                   .fluid = exchange_.fluid.newest(),
+                   .orders = exchange_.orders.newest()};
+    if (closing_) in.orders.enabled = false;
+
+    const LawOutput out = law(state_, in, dt);
+    device_.command(out.force_n);
+    exchange_.pose.publish(out.pose);
+
+    trace_.push({.t = now,
+                 .position_m = state_.hand.position_m(),
+                 .velocity_m_s = state_.hand.velocity_m_s(),
+                 .raw_force_n = out.raw_n,
+                 .filtered_force_n = out.filtered_n,
+                 .sent_force_n = out.force_n,
+                 .fluid_sequence = in.fluid.sequence,
+                 .fluid_age = out.fluid_age,
+                 .fluid_lag = now - in.fluid.computed_for,
+                 .reason = out.reason,
+                 .buttons = out.pose.buttons});
+    ++report_.ticks;
+    report_.impulses = state_.filter.impulses();
+    report_.gate = state_.gate.counters();
+    report_.reason = out.reason;
+    report_.device = in.device;
+    report_.device_counters = device_.counters();
+    exchange_.report.publish(report_);
+}
+
+void HapticLoop::run(Clock& clock, const std::atomic<bool>& stop) {
+    closing_ = false;
+    Instant due = clock.now();
+    while (!stop.load(std::memory_order_relaxed)) due = pace(clock, due);
+    closing_ = true;
+    for (int i = 0; i < kClosingTicks; ++i) due = pace(clock, due);
+}
+
+/// Runs one tick for the last grid point that has come, `due` if all goes well, and returns the grid point
+/// after it.
+Instant HapticLoop::pace(Clock& clock, Instant due) {
+    clock.sleep_until(due);
+    const Instant now = clock.now();
+    const Instant late = now - due;
+    const auto passed = late / kTick;
+    if (late > kLate) ++report_.late;
+    report_.missed += static_cast<std::uint64_t>(passed);
+    report_.worst_late = std::max(report_.worst_late, late);
+    tick(now);
+    return due + (passed + 1) * kTick;
+}
+
+}  // namespace eddy

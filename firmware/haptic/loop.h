@@ -1,0 +1,51 @@
+#pragma once
+#include <atomic>
+
+#include "firmware/haptic/exchange.h"
+#include "firmware/haptic/law.h"
+#include "firmware/haptic/trace.h"
+#include "hal/clock.h"
+#include "hal/haptic/haptic_device.h"
+
+namespace eddy {
+
+inline constexpr Instant kTick = std::chrono::milliseconds(1);
+inline constexpr Instant kLate = kTick / 2;
+/// Zero commands sent after stop: one would do, if no packet were ever lost.
+inline constexpr int kClosingTicks = 10;
+
+struct HapticLoopSettings {
+    ForceFilterSettings filter{};
+    GateLimits gate{};
+};
+
+/// The shell around the law: poll, read, law, command, record. A tick allocates nothing, takes no lock,
+/// writes no log and never waits for the fluid. One thread owns the loop and its device; everybody else talks
+/// to it through the exchange.
+class HapticLoop {
+  public:
+    /// All three must outlive the loop.
+    HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace& trace,
+               const HapticLoopSettings& settings = {});
+
+    /// One tick. `now` never goes back. For callers that keep time themselves (replay, tests).
+    void tick(Instant now);
+
+    /// A tick every kTick on a fixed grid until `stop`; then kClosingTicks more with the gate shut, and
+    /// returns. A tick that comes too late runs once; those whose time passed meanwhile are left out and
+    /// counted, never made up for in a burst.
+    void run(Clock& clock, const std::atomic<bool>& stop);
+
+  private:
+    Instant pace(Clock& clock, Instant due);
+
+    HapticDevice& device_;
+    HapticExchange& exchange_;
+    TickTrace& trace_;
+    LawState state_;
+    LoopReport report_;
+    Instant last_{0};       // time of the last tick
+    bool closing_ = false;  // shuts the gate whatever the orders say
+};
+
+}  // namespace eddy
