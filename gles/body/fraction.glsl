@@ -1,0 +1,35 @@
+// fraction.glsl     How much of a unit cube lies outside a solid, from one distance: the volume cut by a plane.
+//
+// The staggered cell of a face is a cube of edge 1 cell around the face centre. The solid's surface is taken as the plane
+// at signed distance `distance` (positive outside) with normal `n`. The volume of {x in [0,1]^3 : n.x < alpha} is the
+// inclusion-exclusion sum of clamped cubes over 6 n1 n2 n3 (Scardovelli & Zaleski 2000, J. Comput. Phys. 164, eq. 6
+// for the general case). Volume rather than area fractions: Batty, Bertails & Bridson 2007.
+
+const float kSliver = 1e-4;
+
+// n: |components| of the unit normal. Components are kept off zero so that the quotient stays well conditioned.
+float fluid_fraction(float distance, vec3 n) {
+    n = max(abs(n), vec3(0.05));
+    float alpha = distance + 0.5 * (n.x + n.y + n.z);
+    vec3 one = max(alpha - n, 0.0);
+    vec3 two = max(alpha - n.yzx - n.zxy, 0.0);
+    float all = max(alpha - n.x - n.y - n.z, 0.0);
+    float a = max(alpha, 0.0);
+    float volume = (a * a * a - dot(one * one, one) + dot(two * two, two) - all * all * all) / (6.0 * n.x * n.y * n.z);
+    // Slivers that rounding alone could open or close count as closed.
+    return volume < kSliver ? 0.0 : min(volume, 1.0);
+}
+
+// The fluid's share of the staggered cell around x [cells].
+float fluid_fraction_at(vec3 x) {
+    float distance = solid_distance(x);
+    // Where the surface is farther than the cube's half diagonal, no gradient is needed (nor defined, at a centre).
+    if (abs(distance) > 1.0) return distance > 0.0 ? 1.0 : 0.0;
+    const vec2 e = vec2(0.05, 0.0);
+    vec3 g = vec3(solid_distance(x + e.xyy) - solid_distance(x - e.xyy),
+                  solid_distance(x + e.yxy) - solid_distance(x - e.yxy),
+                  solid_distance(x + e.yyx) - solid_distance(x - e.yyx)) / (2.0 * e.x);
+    float steepness = length(g);  // 1 for a true distance
+    if (steepness < 1e-3) return distance > 0.0 ? 1.0 : 0.0;
+    return fluid_fraction(distance / steepness, g / steepness);
+}

@@ -1,0 +1,37 @@
+#pragma once
+#include <vector>
+
+#include "gles/body/shapes.h"
+#include "gles/field.h"
+
+namespace eddy::gles {
+
+/// The fluid's share of the staggered cell around every face of one grid, axis by axis.
+struct FaceFractions {
+    Field<Faces4> x, y, z;
+};
+
+/// Face fractions on the finest grid and on the coarse grids of the pressure solver. Only the boxes where a body is or
+/// was are drawn each step; everywhere else the fractions stay 1.
+class Fractions {
+  public:
+    /// `grids`: cells of each level, finest first.
+    Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::vector<BodySetup>& bodies);
+
+    /// Draws the bodies where they are now; `boxes` hold each body and two cells around it.
+    void update(const BodyUniforms& bodies, const std::vector<Box>& boxes);
+
+    const FaceFractions& level(std::size_t l) const { return levels_[l]; }
+
+  private:
+    void draw(const BodyUniforms& bodies, const Region& finest, const std::vector<Region>& coarse);
+
+    std::vector<glm::ivec3> grids_;
+    std::vector<FaceFractions> levels_;
+    Pass finest_;
+    std::vector<Pass> coarsen_;  ///< [l] makes level l + 1 from level l
+    std::vector<Box> before_;
+    bool drawn_ = false;
+};
+
+}  // namespace eddy::gles

@@ -1,0 +1,20 @@
+// advect_velocity.frag     u* = u(x - dt u)         semi-Lagrangian: Stam 1999, "Stable fluids"
+//
+// reads   velocity   RGBA32F  Faces (nx+1, ny+1, nz+1)   [m/s]
+// writes  u*         RGBA32F  Faces                      [m/s]     walls are put right by the projection
+// fetches 6
+//
+// One displacement, that of the cell centre, moves the three lower faces of a cell: in texel coordinates they coincide,
+// so one trilinear fetch brings all three.
+#include "velocity.glsl"
+
+uniform sampler2D velocity;
+uniform float dt_h;  // dt / h  [s/m]
+
+out vec4 result;
+
+void main() {
+    ivec3 c = cell_here(FACES);
+    vec3 s = vec3(c) + 0.5 - dt_h * velocity_in_cell(velocity, c);
+    result = sample_linear(velocity, FACES, s);
+}

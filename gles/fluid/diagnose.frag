@@ -1,0 +1,38 @@
+// diagnose.frag     For each column of cells: max |div u|, sum of |u|^2, sum of smoke, max |residual|
+//
+// reads   velocity    RGBA32F  Faces     [m/s]       after the projection
+// reads   divergence  RGBA32F  Cells4    [m/s]       of that velocity, the solid's share included
+// reads   before      RGBA32F  Cells4    [m/s]       the same before the projection
+// reads   smoke       R32F     Cells     [1]         variant SMOKE
+// writes  (max |div u|, sum u.u, sum smoke, max |div u before|)   RGBA32F, nx x ny texels
+// fetches 256
+uniform sampler2D velocity, divergence, before;
+#ifdef SMOKE
+uniform sampler2D smoke;
+#endif
+
+out vec4 result;
+
+float largest(vec4 v) {
+    v = abs(v);
+    return max(max(v.x, v.y), max(v.z, v.w));
+}
+
+void main() {
+    ivec2 column = ivec2(gl_FragCoord.xy);
+    result = vec4(0.0);
+    for (int slab = 0; slab < PHI.size.z; ++slab) {
+        result.x = max(result.x, largest(at(divergence, PHI, ivec3(column, slab))));
+        result.w = max(result.w, largest(at(before, PHI, ivec3(column, slab))));
+    }
+    for (int z = 0; z < CELLS.z; ++z) {
+        ivec3 c = ivec3(column, z);
+        vec3 low = at(velocity, FACES, c).xyz;
+        vec3 high = vec3(at(velocity, FACES, c + ivec3(1, 0, 0)).x, at(velocity, FACES, c + ivec3(0, 1, 0)).y,
+                         at(velocity, FACES, c + ivec3(0, 0, 1)).z);
+        result.y += 0.5 * (dot(low, low) + dot(high, high));
+#ifdef SMOKE
+        result.z += at(smoke, SMOKE_CELLS, c).x;
+#endif
+    }
+}

@@ -1,0 +1,56 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gles/field.h"
+#include "gles/fluid/setup.h"
+
+namespace eddy::gles {
+
+/// What a step did to the whole tank; costs a pass over the grid, so it is made only when asked for.
+struct Diagnostics {
+    double divergence_before_1_s = 0.0;  ///< max |div u| before the projection, the bodies' motion included
+    double divergence_max_1_s = 0.0;     ///< the same after it
+    double kinetic_energy_j = 0.0;       ///< rho/2 sum |u|^2 h^3 (solid regions move with their body and are included)
+    double smoke_total = 0.0;            ///< sum of the smoke density over all cells times the cell volume [m^3]
+};
+
+struct StepResult {
+    long step = 0;            ///< number of the step, from 1
+    std::vector<Load> loads;  ///< one for each body; zero where nothing is measured
+    std::optional<Diagnostics> diagnostics;
+};
+
+/// A fluid in its tank. The GL thread calls everything.
+class Fluid {
+  public:
+    virtual ~Fluid() = default;
+    /// Moves on by dt_s, ending with the bodies as given. Returns at once; the GPU works on.
+    virtual void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) = 0;
+    /// The oldest result not yet taken. Without `wait`: only if the GPU has finished it.
+    virtual std::optional<StepResult> result(bool wait) = 0;
+    /// Back to the start, exactly.
+    virtual void reset() = 0;
+
+    /// Smoke density at cell centres; null if the scene has none.
+    virtual const Field<Cells>* smoke() const = 0;
+    /// Velocity [m/s] as a new grid of texels would see it: waits for the GPU. x fastest, then y, then z.
+    /// On the staggered grid: (nx+1)(ny+1)(nz+1) entries, component c on the lower face of its cell.
+    virtual std::vector<glm::vec3> velocity() const = 0;
+    /// Pressure [Pa] in each cell, for the last step; x fastest. Waits for the GPU.
+    virtual std::vector<float> pressure() const = 0;
+    /// Replaces the velocity field (same order as velocity()); it need not be free of divergence.
+    virtual void set_velocity(const std::vector<glm::vec3>& u) = 0;
+
+    const FluidSetup& setup() const { return setup_; }
+
+  protected:
+    explicit Fluid(FluidSetup setup) : setup_(std::move(setup)) {}
+    const FluidSetup setup_;
+};
+
+/// The solver that setup.solver.method names.
+std::unique_ptr<Fluid> make_fluid(Gpu& gpu, const FluidSetup& setup);
+
+}  // namespace eddy::gles

@@ -1,0 +1,26 @@
+// maccormack_smoke.frag     s = (s^ + (s - s~) / 2, limited) exp(-k dt) + dt q      second pass; s^ from advect_smoke.frag
+//
+// reads   velocity        RGBA32F  Faces (nx+1, ny+1, nz+1)   [m/s]
+// reads   smoke, forward  R32F     Cells (nx, ny, nz)         [1]      s and s^
+// writes  s               R32F     Cells                      [1]
+// fetches 16
+#include "velocity.glsl"
+#include "maccormack.glsl"
+#include "sources.glsl"
+
+uniform sampler2D velocity, smoke, forward;
+uniform float dt_h;     // dt / h  [s/m]
+uniform float remains;  // exp(-k dt)
+
+out float result;
+
+void main() {
+    ivec3 c = cell_here(TARGET);
+    vec3 x = vec3(c) + 0.5;
+    vec3 displacement = dt_h * velocity_in_cell(velocity, c);
+    vec4 least, most;
+    donors(smoke, TARGET, x - displacement, least, most);
+    float back = sample_linear(forward, TARGET, x + displacement).x;
+    float s = at(forward, TARGET, c).x + 0.5 * (at(smoke, TARGET, c).x - back);
+    result = remains * clamp(s, least.x, most.x) + from_sources(x);
+}

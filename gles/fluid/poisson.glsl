@@ -1,0 +1,47 @@
+// poisson.glsl     The pressure equation  sum_f a_f (phi_nb - phi) = b  over the six faces of a cell, four cells at once
+//
+// phi: velocity potential dt p / (rho h) [m/s], Cells4. Away from solids every a is 1; variant CUT reads them from Faces4.
+// Tank walls are closed: no term. Padding beyond the last layer takes no part. PHI is the layout of phi, CELLS its grid.
+// Variant LAST_CELL (vec3): on the coarse grids of an odd grid the last cell of an axis is only partly inside; this is how
+// much. Faces along it are smaller by the same share, as the averaged fractions of variant CUT know by themselves.
+uniform sampler2D phi;
+#ifdef CUT
+uniform sampler2D ax, ay, az;
+#endif
+
+// Returns sum_f a_f (phi_nb - phi); diagonal = sum_f a_f; centre = phi itself.
+vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
+    vec4 p = at(phi, PHI, c);
+    vec4 xl = at_clamped(phi, PHI, c - ivec3(1, 0, 0)), xh = at_clamped(phi, PHI, c + ivec3(1, 0, 0));
+    vec4 yl = at_clamped(phi, PHI, c - ivec3(0, 1, 0)), yh = at_clamped(phi, PHI, c + ivec3(0, 1, 0));
+    vec4 zl = vec4(at_clamped(phi, PHI, c - ivec3(0, 0, 1)).w, p.xyz);
+    vec4 zh = vec4(p.yzw, at_clamped(phi, PHI, c + ivec3(0, 0, 1)).x);
+    vec4 z = float(4 * c.z) + vec4(0.0, 1.0, 2.0, 3.0);
+    vec4 has_zl = vec4(greaterThan(z, vec4(0.0))), has_zh = vec4(lessThan(z + 1.0, vec4(CELLS.z)));
+    vec4 valid = vec4(lessThan(z, vec4(CELLS.z)));
+    float has_xl = float(c.x > 0), has_xh = float(c.x + 1 < CELLS.x);
+    float has_yl = float(c.y > 0), has_yh = float(c.y + 1 < CELLS.y);
+    centre = p;
+#ifdef CUT
+    vec4 lz = at(az, FRACTION, c);
+    vec4 wxl = has_xl * at(ax, FRACTION, c), wxh = has_xh * at(ax, FRACTION, c + ivec3(1, 0, 0));
+    vec4 wyl = has_yl * at(ay, FRACTION, c), wyh = has_yh * at(ay, FRACTION, c + ivec3(0, 1, 0));
+    vec4 wzl = has_zl * lz, wzh = has_zh * vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x);
+    diagonal = valid * (wxl + wxh + wyl + wyh + wzl + wzh);
+    return valid * (wxl * (xl - p) + wxh * (xh - p) + wyl * (yl - p) + wyh * (yh - p) + wzl * (zl - p) + wzh * (zh - p));
+#else
+    // Clamping made phi_nb = phi at the walls in x and y, so only the diagonal must know of them.
+    vec4 in_x = valid * (has_xl + has_xh), in_y = valid * (has_yl + has_yh), in_z = valid * (has_zl + has_zh);
+    vec4 lap_x = valid * (xl + xh - 2.0 * p), lap_y = valid * (yl + yh - 2.0 * p);
+    vec4 lap_z = valid * (has_zl * (zl - p) + has_zh * (zh - p));
+#ifdef LAST_CELL
+    float sx = c.x + 1 < CELLS.x ? 1.0 : LAST_CELL.x, sy = c.y + 1 < CELLS.y ? 1.0 : LAST_CELL.y;
+    vec4 sz = mix(vec4(LAST_CELL.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(CELLS.z))));
+    diagonal = sy * sz * in_x + sx * sz * in_y + sx * sy * in_z;
+    return sy * sz * lap_x + sx * sz * lap_y + sx * sy * lap_z;
+#else
+    diagonal = in_x + in_y + in_z;
+    return lap_x + lap_y + lap_z;
+#endif
+#endif
+}

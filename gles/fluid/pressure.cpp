@@ -1,0 +1,192 @@
+#include "gles/fluid/pressure.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace eddy::gles {
+namespace {
+
+constexpr int kCoarsest = 4;       // cells an axis at which coarsening stops
+constexpr int kSplitFrom = 24;     // cells an axis from which the plain variant is worth its extra draw
+constexpr int kCoarsestSweeps = 8;
+
+// The sweeps of one visit smooth what a coarser grid cannot hold: eigenvalues of D^-1 A from 1/3 up to 2.
+const std::vector<float> kSmoother = chebyshev_weights(2, 1.0 / 3.0, 2.0);
+// On the coarsest grid they must solve: the slowest mode of 4 cells has (1 - cos(pi/4)) / 3 = 0.098.
+const std::vector<float> kSolver = chebyshev_weights(kCoarsestSweeps, 0.08, 2.0);
+
+std::string ivec3_text(const glm::ivec3& v) { return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z); }
+
+}  // namespace
+
+std::vector<glm::ivec3> multigrid_levels(const glm::ivec3& n) {
+    std::vector<glm::ivec3> levels{n};
+    while (std::max({levels.back().x, levels.back().y, levels.back().z}) > kCoarsest)
+        levels.push_back((levels.back() + 1) / 2);
+    return levels;
+}
+
+std::vector<float> chebyshev_weights(int m, double low, double high) {
+    // Roots numbered so that each is followed by its counterpart: theta(2i-1), theta(2i) from order m/2 (m a power of 2).
+    std::vector<int> order{1};
+    while (static_cast<int>(order.size()) < m) {
+        const int twice = 2 * static_cast<int>(order.size());
+        std::vector<int> next;
+        for (int k : order) {
+            next.push_back(k);
+            next.push_back(twice + 1 - k);
+        }
+        order = next;
+    }
+    std::vector<float> weights;
+    for (int k : order) {
+        const double root = std::cos(std::numbers::pi * (2.0 * k - 1.0) / (2.0 * static_cast<double>(order.size())));
+        weights.push_back(static_cast<float>(1.0 / (0.5 * (high + low) - 0.5 * (high - low) * root)));
+    }
+    return weights;
+}
+
+Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions) : gpu_(&gpu), fractions_(fractions) {
+    const std::vector<glm::ivec3> grids = multigrid_levels(cells);
+    for (std::size_t l = 0; l < grids.size(); ++l) {
+        const glm::ivec3 n = grids[l];
+        Level level{n, std::min({n.x, n.y, n.z}) >= kSplitFrom, {}, {}, {}, {}, {}};
+        levels_.push_back(std::move(level));
+    }
+    if (fractions_) {
+        const AtlasLayout finest = Cells4::layout(cells);
+        follow_.emplace(gpu, "follow bodies", "gles/fluid/follow.frag", finest,
+                        Variant{.defines = {{"CELLS", ivec3_text(cells)}}});
+        copy_back_.emplace(gpu, "copy back", "gles/copy.frag", finest);
+    }
+    for (std::size_t l = 0; l < grids.size(); ++l) {
+        Level& level = levels_[l];
+        const AtlasLayout here = Cells4::layout(grids[l]);
+        level.sweep.emplace(make(gpu, "smooth", "gles/fluid/smooth.frag", l, here, {}));
+        if (l > 0)
+            level.first_sweep.emplace(
+                make(gpu, "smooth from zero", "gles/fluid/smooth.frag", l, here, {.defines = {{"FROM_ZERO", ""}}}));
+        if (l + 1 == grids.size()) break;
+        const AtlasLayout coarse = Cells4::layout(grids[l + 1]);
+        level.restrict.emplace(make(gpu, "restrict residual", "gles/fluid/restrict_residual.frag", l, coarse, {}));
+        Variant prolong;
+        prolong.layouts = {{"COARSE", coarse}};
+        prolong.defines = {{"COARSE_CELLS", ivec3_text(grids[l + 1])}};
+        level.prolong.emplace(
+            Split{Pass(gpu, fmt::format("prolong {}", l), "gles/fluid/prolong.frag", here, prolong), {}});
+    }
+}
+
+Pressure::Split Pressure::make(Gpu& gpu, const char* name, const char* shader, std::size_t l,
+                               const AtlasLayout& target, Variant variant) {
+    const glm::ivec3 n = levels_[l].cells;
+    variant.layouts.emplace_back("PHI", Cells4::layout(n));
+    variant.layouts.emplace_back("FRACTION", Faces4::layout(n));
+    variant.defines.emplace_back("CELLS", ivec3_text(n));
+    const glm::vec3 covered = glm::vec3(levels_[0].cells) / std::exp2(static_cast<float>(l)) - glm::vec3(n - 1);
+    Variant cut = variant;
+    if (covered != glm::vec3(1.0f))
+        variant.defines.emplace_back("LAST_CELL",
+                                     fmt::format("vec3({:.8f}, {:.8f}, {:.8f})", covered.x, covered.y, covered.z));
+    cut.defines.emplace_back("CUT", "");
+    if (!fractions_) return {Pass(gpu, fmt::format("{} {}", name, l), shader, target, variant), {}};
+    if (!levels_[l].split) return {Pass(gpu, fmt::format("{} {} cut", name, l), shader, target, cut), {}};
+    return {Pass(gpu, fmt::format("{} {}", name, l), shader, target, variant),
+            Pass(gpu, fmt::format("{} {} cut", name, l), shader, target, cut)};
+}
+
+void Pressure::draw(Split& pass, std::size_t l, std::vector<Input> inputs,
+                    const std::vector<Uniform>& uniforms, const Texture& out, const std::vector<Box>& boxes) {
+    if (!fractions_) {
+        pass.plain.draw(inputs, uniforms, {&out});
+        return;
+    }
+    const FaceFractions& a = fractions_->level(l);
+    inputs.insert(inputs.end(), {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
+    pass.plain.draw(inputs, uniforms, {&out});
+    if (pass.cut) pass.cut->draw(inputs, uniforms, {&out}, Region::packed(boxes));
+}
+
+Field<Cells4> Pressure::sweep(std::size_t l, const Field<Cells4>& phi, const Field<Cells4>& b, float omega) {
+    Field<Cells4> next(*gpu_, levels_[l].cells, Format::RGBA32F);
+    draw(*levels_[l].sweep, l, {{"phi", &phi.texture()}, {"b", &b.texture()}}, {{"omega", omega}}, next.texture(),
+         levels_[l].boxes);
+    return next;
+}
+
+Field<Cells4> Pressure::sweep_from_zero(std::size_t l, const Field<Cells4>& b, float omega) {
+    Field<Cells4> next(*gpu_, levels_[l].cells, Format::RGBA32F);
+    // The shader's phi is not read in this variant, but must be bound to something that is not being drawn into.
+    draw(*levels_[l].first_sweep, l, {{"phi", &b.texture()}, {"b", &b.texture()}}, {{"omega", omega}}, next.texture(),
+         levels_[l].boxes);
+    return next;
+}
+
+void Pressure::sweep_near(Field<Cells4>& phi, const Field<Cells4>& b, const std::vector<Box>& boxes) {
+    // There and back: the first sweep covers what the second reads, so phi stays whole outside the boxes.
+    Field<Cells4> there(*gpu_, levels_[0].cells, Format::RGBA32F);
+    std::vector<Box> near = boxes, wider = boxes;
+    for (Box& box : near) box = box.grow(3);
+    for (Box& box : wider) box = box.grow(4);
+    Split& sweep = *levels_[0].sweep;
+    Pass& cut = sweep.cut ? *sweep.cut : sweep.plain;
+    const FaceFractions& a = fractions_->level(0);
+    const std::vector<Input> fractions{{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}};
+    std::vector<Input> inputs{{"phi", &phi.texture()}, {"b", &b.texture()}};
+    inputs.insert(inputs.end(), fractions.begin(), fractions.end());
+    cut.draw(inputs, {{"omega", kSmoother[0]}}, {&there.texture()}, Region::packed(wider));
+    inputs[0].texture = &there.texture();
+    cut.draw(inputs, {{"omega", kSmoother[1]}}, {&phi.texture()}, Region::packed(near));
+}
+
+Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<BodyMotion>& motions) {
+    Field<Cells4> moved(*gpu_, levels_[0].cells, Format::RGBA32F);
+    for (const BodyMotion& body : motions) {
+        if (glm::length(body.moved) < 1e-3f) continue;
+        const float reach = 3.0f * body.radius + 2.0f;
+        const Box box{glm::ivec3(glm::floor(body.centre - reach)), glm::ivec3(glm::ceil(body.centre + reach))};
+        const Region region = Region::packed({box.intersect({glm::ivec3(0), levels_[0].cells})});
+        follow_->draw({{"phi", &phi.texture()}},
+                      {{"centre", body.centre}, {"moved", body.moved}, {"inner", 1.5f * body.radius}, {"reach", reach}},
+                      {&moved.texture()}, region);
+        copy_back_->draw({{"field", &moved.texture()}}, {}, {&phi.texture()}, region);
+    }
+    return phi;
+}
+
+Field<Cells4> Pressure::cycle(std::size_t l, std::optional<Field<Cells4>> phi, const Field<Cells4>& b) {
+    Level& level = levels_[l];
+    const bool coarsest = l + 1 == levels_.size();
+    const std::vector<float>& weights = coarsest ? kSolver : kSmoother;
+    Field<Cells4> p = phi ? sweep(l, *phi, b, weights[0]) : sweep_from_zero(l, b, weights[0]);
+    for (std::size_t i = 1; i < weights.size(); ++i) p = sweep(l, p, b, weights[i]);
+    if (coarsest) return p;
+
+    Field<Cells4> b_coarse(*gpu_, levels_[l + 1].cells, Format::RGBA32F);
+    draw(*level.restrict, l, {{"phi", &p.texture()}, {"b", &b.texture()}}, {}, b_coarse.texture(),
+         levels_[l + 1].boxes);
+    const Field<Cells4> p_coarse = cycle(l + 1, std::nullopt, b_coarse);
+    Field<Cells4> corrected(*gpu_, level.cells, Format::RGBA32F);
+    level.prolong->plain.draw({{"phi", &p.texture()}, {"phi_coarse", &p_coarse.texture()}}, {},
+                              {&corrected.texture()});
+    p = std::move(corrected);
+    for (float omega : kSmoother) p = sweep(l, p, b, omega);
+    return p;
+}
+
+Field<Cells4> Pressure::solve(Field<Cells4> phi, const Field<Cells4>& b, int cycles, const std::vector<Box>& boxes) {
+    std::vector<Box> at_level = boxes;
+    for (Level& level : levels_) {
+        level.boxes = at_level;
+        for (Box& box : at_level) box = box.coarsen().grow(1);
+    }
+    for (int i = 0; i < cycles; ++i) {
+        phi = cycle(0, std::move(phi), b);
+        if (fractions_) sweep_near(phi, b, boxes);
+    }
+    return phi;
+}
+
+}  // namespace eddy::gles

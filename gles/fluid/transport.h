@@ -1,0 +1,46 @@
+#pragma once
+#include <optional>
+
+#include "gles/field.h"
+#include "gles/fluid/setup.h"
+#include "gles/pass.h"
+
+namespace eddy::gles {
+
+/// Carries the velocity with itself: u* = u(x - dt u).
+class VelocityTransport {
+  public:
+    VelocityTransport(Gpu& gpu, const glm::ivec3& cells, double cell_m, Advection scheme);
+    Field<Faces> operator()(const Field<Faces>& u, double dt_s);
+
+  private:
+    Gpu* gpu_;
+    double cell_m_;
+    Pass forward_;
+    std::optional<Pass> correct_;
+};
+
+/// Carries smoke with a velocity, lets it fade, and adds what the sources give.
+class SmokeTransport {
+  public:
+    SmokeTransport(Gpu& gpu, const FluidSetup& setup);
+    /// `time_s`: when the step begins; decides which sources run.
+    Field<Cells> operator()(const Field<Cells>& smoke, const Field<Faces>& u, double time_s, double dt_s);
+
+  private:
+    Gpu* gpu_;
+    FluidSetup setup_;
+    std::vector<Box> source_boxes_;
+    std::vector<glm::vec4> source_balls_;
+    Pass forward_;
+    std::optional<Pass> correct_;
+    std::optional<Pass> with_sources_;  ///< the last pass again, over the sources
+};
+
+/// Whether a source gives anything at this time.
+bool is_running(const SourceSetup& source, double time_s);
+/// The ball of a source in cells (centre, radius), and the cells it may touch.
+glm::vec4 ball_cells(const SourceSetup& source, double cell_m);
+Box ball_box(const glm::vec4& ball, const glm::ivec3& limit);
+
+}  // namespace eddy::gles

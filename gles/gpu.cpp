@@ -1,0 +1,65 @@
+#include "gles/gpu.h"
+
+#include <GLES3/gl3.h>
+#include <fmt/format.h>
+
+namespace eddy::gles {
+
+void finish() { glFinish(); }
+
+Gpu::Gpu(const Capabilities& capabilities)
+    : capabilities_(capabilities),
+      filters_float_(capabilities.filters_float),
+      textures_(capabilities.filters_float) {
+    // Passes make their corners from gl_VertexID: no attributes, but ES 3 wants an array object all the same.
+    glGenVertexArrays(1, &vertex_array_);
+    glBindVertexArray(vertex_array_);
+    glDisable(GL_DITHER);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+}
+
+Gpu::~Gpu() {
+    for (const auto& [attachments, framebuffer] : framebuffers_) glDeleteFramebuffers(1, &framebuffer);
+    glDeleteVertexArrays(1, &vertex_array_);
+}
+
+unsigned Gpu::framebuffer(const std::vector<const Texture*>& targets) {
+    std::vector<unsigned> key;
+    for (const Texture* texture : targets) key.push_back(texture->id());
+    if (auto it = framebuffers_.find(key); it != framebuffers_.end()) return it->second;
+
+    GLuint framebuffer = 0;
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    std::vector<GLenum> buffers;
+    for (std::size_t i = 0; i < key.size(); ++i) {
+        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, key[i], 0);
+        buffers.push_back(attachment);
+    }
+    glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+    if (const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
+        throw GlError(fmt::format("{} refuses to draw into {} {} texture(s): framebuffer status {:#06x}",
+                                  capabilities_.renderer, targets.size(), to_string(targets[0]->format()), status));
+    return framebuffers_[key] = framebuffer;
+}
+
+Gpu::Stage::Stage(Gpu& gpu, std::string_view name) : gpu_(gpu), outer_(gpu.stage_) {
+    gpu_.stage_ = name;
+    if (gpu_.watcher_) gpu_.watcher_(name, true);
+}
+
+Gpu::Stage::~Stage() {
+    if (gpu_.watcher_) gpu_.watcher_(gpu_.stage_, false);
+    gpu_.stage_ = outer_;
+}
+
+void Gpu::note(PassRecord record) {
+    if (!records_) return;
+    record.stage = stage_;
+    records_->push_back(std::move(record));
+}
+
+}  // namespace eddy::gles

@@ -1,0 +1,75 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gles/context.h"
+#include "gles/texture.h"
+
+namespace eddy::gles {
+
+/// What one pass was asked to do, for the plan (`eddy simulate --plan`), the bench and the tests.
+struct PassRecord {
+    std::string stage;                       ///< the line of the step it belongs to
+    std::string pass;
+    std::vector<std::string> inputs;         ///< sampler names
+    std::vector<const Texture*> outputs;
+    std::int64_t texels = 0;                 ///< texels written (one per fragment, whatever the number of outputs)
+    std::int64_t bytes = 0;                  ///< bytes written
+    std::int64_t fetches = 0;                ///< texture fetches, as declared by the shader
+};
+
+/// Returns when the GPU has done everything it was asked to.
+void finish();
+
+/// The one place where GL state lives: textures, framebuffers, and who watches the passes go by.
+class Gpu {
+  public:
+    explicit Gpu(const Capabilities& capabilities);
+    ~Gpu();
+    Gpu(const Gpu&) = delete;
+    Gpu& operator=(const Gpu&) = delete;
+
+    const Capabilities& capabilities() const { return capabilities_; }
+    TexturePool& textures() { return textures_; }
+    /// Whether passes may sample 32-bit textures linearly; tests turn it off to try the other path.
+    bool filters_float() const { return filters_float_; }
+    void set_filters_float(bool on) { filters_float_ = on && capabilities_.filters_float; }
+
+    /// Framebuffer with these colour attachments (0 to 3), made once.
+    unsigned framebuffer(const std::vector<const Texture*>& targets);
+
+    /// While a Stage lives, passes are recorded under its name, and the watcher hears its begin and end.
+    class Stage {
+      public:
+        Stage(Gpu& gpu, std::string_view name);
+        ~Stage();
+        Stage(const Stage&) = delete;
+        Stage& operator=(const Stage&) = delete;
+
+      private:
+        Gpu& gpu_;
+        std::string outer_;
+    };
+    using StageWatcher = std::function<void(std::string_view stage, bool begins)>;
+    void watch_stages(StageWatcher watcher) { watcher_ = std::move(watcher); }
+
+    /// Records every pass from now on into `records` (null: stop).
+    void record(std::vector<PassRecord>* records) { records_ = records; }
+    void note(PassRecord record);
+    bool recording() const { return records_ != nullptr; }
+
+  private:
+    Capabilities capabilities_;
+    bool filters_float_;
+    TexturePool textures_;
+    unsigned vertex_array_ = 0;
+    std::map<std::vector<unsigned>, unsigned> framebuffers_;
+    std::string stage_;
+    StageWatcher watcher_;
+    std::vector<PassRecord>* records_ = nullptr;
+};
+
+}  // namespace eddy::gles

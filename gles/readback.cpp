@@ -1,0 +1,60 @@
+#include "gles/readback.h"
+
+#include <GLES3/gl3.h>
+
+#include <cstring>
+
+namespace eddy::gles {
+
+Readback::Readback(Gpu& gpu, const glm::ivec2& size) : gpu_(&gpu), size_(size) {
+    for (Slot& slot : slots_) {
+        glGenBuffers(1, &slot.buffer);
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
+        glBufferData(GL_PIXEL_PACK_BUFFER, GLsizeiptr{size.x} * size.y * 16, nullptr, GL_STREAM_READ);
+    }
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+}
+
+Readback::~Readback() {
+    for (Slot& slot : slots_) {
+        if (slot.fence) glDeleteSync(static_cast<GLsync>(slot.fence));
+        glDeleteBuffers(1, &slot.buffer);
+    }
+}
+
+void Readback::request(const Texture& texture, long tag) {
+    if (under_way_ == slots_.size()) take(true);  // the newest wins over the oldest
+    Slot& slot = slots_[(first_ + under_way_++) % slots_.size()];
+    glBindFramebuffer(GL_FRAMEBUFFER, gpu_->framebuffer({&texture}));
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
+    glReadPixels(0, 0, size_.x, size_.y, GL_RGBA, GL_FLOAT, nullptr);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    slot.tag = tag;
+    glFlush();  // or the fence may never be reached
+}
+
+std::optional<Readback::Result> Readback::take(bool wait) {
+    if (under_way_ == 0) return std::nullopt;
+    Slot& slot = slots_[first_];
+    const GLuint64 patience_ns = wait ? 10'000'000'000ull : 0;
+    const GLenum state = glClientWaitSync(static_cast<GLsync>(slot.fence), GL_SYNC_FLUSH_COMMANDS_BIT, patience_ns);
+    if (state == GL_TIMEOUT_EXPIRED && !wait) return std::nullopt;
+    glDeleteSync(static_cast<GLsync>(slot.fence));
+    slot.fence = nullptr;
+    first_ = (first_ + 1) % slots_.size();
+    --under_way_;
+
+    const std::size_t count = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
+    Result result{slot.tag, std::vector<glm::vec4>(count)};
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
+    const GLsizeiptr bytes = static_cast<GLsizeiptr>(count * sizeof(glm::vec4));
+    if (const void* mapped = glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, bytes, GL_MAP_READ_BIT)) {
+        std::memcpy(result.texels.data(), mapped, count * sizeof(glm::vec4));
+        glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
+    }
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    return result;
+}
+
+}  // namespace eddy::gles

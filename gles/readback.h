@@ -1,0 +1,40 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "gles/gpu.h"
+
+namespace eddy::gles {
+
+/// Brings one small RGBA32F texture to the CPU without waiting: each request copies into a pixel buffer behind a fence,
+/// and is picked up when the fence has passed. Up to three requests may be under way.
+class Readback {
+  public:
+    Readback(Gpu& gpu, const glm::ivec2& size);
+    ~Readback();
+    Readback(const Readback&) = delete;
+    Readback& operator=(const Readback&) = delete;
+
+    struct Result {
+        long tag;  ///< what the caller gave with the request
+        std::vector<glm::vec4> texels;
+    };
+    /// Asks for the texture's content as it will be after everything drawn so far.
+    void request(const Texture& texture, long tag);
+    /// The oldest request that is done; with `wait`, waits for the oldest (none if nothing was asked).
+    std::optional<Result> take(bool wait);
+
+  private:
+    struct Slot {
+        unsigned buffer = 0;
+        void* fence = nullptr;
+        long tag = 0;
+    };
+    Gpu* gpu_;
+    glm::ivec2 size_;
+    std::array<Slot, 3> slots_;
+    std::size_t first_ = 0, under_way_ = 0;
+};
+
+}  // namespace eddy::gles

@@ -1,0 +1,128 @@
+#include "gles/render/renderer.h"
+
+#include <GLES3/gl3.h>
+#include <fmt/format.h>
+
+namespace eddy::gles {
+namespace {
+
+glm::ivec3 half(const glm::ivec3& n) { return (n + 1) / 2; }
+AtlasLayout pixels(const glm::ivec2& size) { return {{size, 1}, 1}; }
+
+/// What the passes of this scene are compiled with.
+Variant scene_variant(const FluidSetup& fluid) {
+    Variant v{.layouts = {{"SMOKE_CELLS", Cells::layout(fluid.cells)},
+                          {"LIGHT", Cells::layout(half(fluid.cells))}},
+              .defines = {{"CELLS", fmt::format("ivec3({}, {}, {})", fluid.cells.x, fluid.cells.y, fluid.cells.z)}}};
+    if (fluid.smoke) v.defines.emplace_back("SMOKE", "");
+    if (!fluid.bodies.empty()) {
+        v.defines.emplace_back("BODY", "");
+        v.declarations = shape_declarations(fluid.bodies);
+    }
+    return v;
+}
+
+}  // namespace
+
+Renderer::Renderer(Gpu& gpu, const FluidSetup& fluid, const RenderSetup& setup)
+    : gpu_(gpu),
+      setup_(setup),
+      cell_m_(fluid.cell_m),
+      march_size_(setup.half_resolution ? glm::ivec2((setup.width_px + 1) / 2, (setup.height_px + 1) / 2)
+                                        : glm::ivec2(setup.width_px, setup.height_px)),
+      body_uniforms_(fluid.bodies, fluid.cell_m),
+      light_(gpu, half(fluid.cells), Format::RG32F),
+      picture_(gpu.textures().lease({setup.width_px, setup.height_px}, Format::RGBA8)),
+      draw_light_(gpu, "light", "gles/render/light.frag", light_.layout(), scene_variant(fluid)),
+      draw_picture_(gpu, "picture", "gles/render/picture.frag", pixels(picture_.get()->size()),
+                    scene_variant(fluid)) {
+    if (!fluid.smoke) return;
+    pair_smoke_.emplace(gpu, "pair smoke", "gles/render/pair_smoke.frag", Cells::layout(fluid.cells), Variant{});
+    pair_light_.emplace(gpu, "pair light", "gles/render/pair_light.frag", light_.layout(), Variant{});
+    march_smoke_.emplace(gpu, "smoke", "gles/render/smoke.frag", pixels(march_size_), scene_variant(fluid));
+}
+
+void Renderer::draw(const Fluid& fluid, const std::vector<BodyState>& bodies) {
+    const glm::ivec3 n = fluid.setup().cells;
+    const Camera camera{setup_.azimuth_deg, setup_.elevation_deg, setup_.distance};
+    const double aspect = static_cast<double>(setup_.width_px) / setup_.height_px;
+    body_uniforms_.set(bodies);
+    const glm::dvec3 to_fill(-setup_.to_key.x, 0.5 * std::abs(setup_.to_key.y), std::abs(setup_.to_key.x));
+    std::vector<Uniform> uniforms{
+        {"to_key", glm::vec3(glm::normalize(setup_.to_key))},
+        {"to_fill", glm::vec3(glm::normalize(to_fill))},
+        {"extinction", static_cast<float>(setup_.optical_density_1_m * cell_m_)},
+        {"eye", glm::vec3(camera.eye(glm::dvec3(n)))},
+        {"rays", glm::mat3(camera.rays(aspect))},
+        {"step_length", static_cast<float>(glm::length(glm::dvec3(n)) / setup_.steps)},
+        {"smoke_colour", glm::vec3(setup_.smoke_colour)},
+        {"background_colour", glm::vec3(setup_.background_colour)},
+        {"exposure", static_cast<float>(setup_.exposure)},
+        {"pixel_angle", static_cast<float>(glm::radians(camera.field_deg) / std::min(setup_.width_px, setup_.height_px))}};
+    if (!bodies.empty()) {
+        uniforms.push_back(body_uniforms_.centre());
+        uniforms.push_back(body_uniforms_.size());
+    }
+    std::vector<Input> inputs{{"light", &light_.texture()}};
+
+    if (!march_smoke_) {
+        {
+            Gpu::Stage stage(gpu_, "light");
+            draw_light_.draw({}, uniforms, {&light_.texture()});
+        }
+        Gpu::Stage stage(gpu_, "render");
+        draw_picture_.draw(inputs, uniforms, {&*picture_});
+        return;
+    }
+
+    Field<Cells> smoke_pair(gpu_, n, Format::RG32F), light_pair(gpu_, light_.cells(), Format::RGBA32F);
+    {
+        Gpu::Stage stage(gpu_, "light");
+        const Input smoke{"smoke", &fluid.smoke()->texture()};
+        draw_light_.draw({smoke}, uniforms, {&light_.texture()});
+        pair_smoke_->draw({smoke}, {}, {&smoke_pair.texture()});
+        pair_light_->draw(inputs, {}, {&light_pair.texture()});
+    }
+    Gpu::Stage stage(gpu_, "render");
+    const TexturePool::Lease front = gpu_.textures().lease(march_size_, Format::RGBA16F);
+    TexturePool::Lease behind;
+    std::vector<const Texture*> layers{&*front};
+    inputs.push_back({"front", &*front});
+    if (!bodies.empty()) {
+        behind = gpu_.textures().lease(march_size_, Format::RGBA16F);
+        layers.push_back(&*behind);
+        inputs.push_back({"behind", &*behind});
+    }
+    march_smoke_->draw({{"smoke", &smoke_pair.texture()}, {"light", &light_pair.texture()}}, uniforms, layers);
+    draw_picture_.draw(inputs, uniforms, {&*picture_});
+}
+
+std::vector<std::uint8_t> Renderer::rgb() const {
+    const glm::ivec2 size = picture().size();
+    std::vector<std::uint8_t> rgba(4 * static_cast<std::size_t>(size.x * size.y));
+    glBindFramebuffer(GL_FRAMEBUFFER, gpu_.framebuffer({&picture()}));
+    glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    std::vector<std::uint8_t> result;
+    result.reserve(rgba.size() / 4 * 3);
+    for (int y = size.y - 1; y >= 0; --y)
+        for (int x = 0; x < size.x; ++x) {
+            const std::uint8_t* pixel = &rgba[4 * static_cast<std::size_t>(y * size.x + x)];
+            result.insert(result.end(), pixel, pixel + 3);
+        }
+    return result;
+}
+
+void Renderer::show(int width_px, int height_px) const {
+    const glm::ivec2 size = picture().size();
+    const double scale = std::min(static_cast<double>(width_px) / size.x, static_cast<double>(height_px) / size.y);
+    const glm::ivec2 shown(glm::round(scale * glm::dvec2(size)));
+    const glm::ivec2 low = (glm::ivec2(width_px, height_px) - shown) / 2;
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, gpu_.framebuffer({&picture()}));
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glBlitFramebuffer(0, 0, size.x, size.y, low.x, low.y, low.x + shown.x, low.y + shown.y, GL_COLOR_BUFFER_BIT,
+                      GL_LINEAR);
+}
+
+}  // namespace eddy::gles

@@ -1,0 +1,106 @@
+#include "gles/shader_source.h"
+
+#include <fmt/format.h>
+
+#include <regex>
+#include <set>
+#include <span>
+#include <sstream>
+
+#include "cmake/embedded.h"
+#include "gles/context.h"
+
+namespace eddy {
+extern const std::span<const EmbeddedFile> kShaders;
+}
+
+namespace eddy::gles {
+namespace {
+
+const EmbeddedFile* find(std::string_view path) {
+    for (const EmbeddedFile& file : kShaders)
+        if (file.name == path) return &file;
+    return nullptr;
+}
+
+const EmbeddedFile& find_or_throw(std::string_view path) {
+    if (const EmbeddedFile* file = find(path)) return *file;
+    throw GlError(fmt::format("shader {} is not in this binary; is it listed in gles/CMakeLists.txt?", path));
+}
+
+class Expander {
+  public:
+    explicit Expander(ShaderSource& out) : out_(out) {}
+
+    void expand(const EmbeddedFile& file) {
+        const std::size_t number = out_.files.size();
+        out_.files.emplace_back(file.name);
+        out_.text += fmt::format("#line 1 {}\n", number);
+        std::istringstream lines{std::string(file.text)};
+        std::string line;
+        for (int n = 1; std::getline(lines, line); ++n) {
+            if (line.rfind("#include", 0) != 0) {
+                out_.text += line + '\n';
+                continue;
+            }
+            const EmbeddedFile& wanted = resolve(file.name, line, n);
+            if (included_.insert(wanted.name).second) expand(wanted);
+            out_.text += fmt::format("#line {} {}\n", n + 1, number);
+        }
+    }
+
+  private:
+    static const EmbeddedFile& resolve(std::string_view from, const std::string& line, int n) {
+        const std::size_t open = line.find('"'), close = line.rfind('"');
+        if (open == close) throw GlError(fmt::format("{}:{}: #include needs a \"file\"", from, n));
+        const std::string name = line.substr(open + 1, close - open - 1);
+        const std::string folder(from.substr(0, from.rfind('/') + 1));
+        if (const EmbeddedFile* beside = find(folder + name)) return *beside;
+        if (const EmbeddedFile* common = find("gles/" + name)) return *common;
+        throw GlError(fmt::format("{}:{}: no shader file {} or gles/{}; is it listed in gles/CMakeLists.txt?", from, n,
+                                  folder + name, name));
+    }
+
+    ShaderSource& out_;
+    std::set<std::string_view> included_;
+};
+
+}  // namespace
+
+ShaderSource load_shader(std::string_view path, std::string_view switches, std::string_view declarations) {
+    ShaderSource source;
+    source.text =
+        "#version 300 es\n"
+        "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
+    source.text += switches;
+    Expander expander(source);
+    expander.expand(find_or_throw("gles/atlas.glsl"));
+    source.text += declarations;
+    expander.expand(find_or_throw(path));
+    return source;
+}
+
+std::string ShaderSource::locate(std::string_view log) const {
+    static const std::regex number(R"((^|\n)(ERROR: |WARNING: )?(\d+)(:|\()(\d+))");
+    std::string rest(log), result;
+    std::smatch m;
+    while (std::regex_search(rest, m, number)) {
+        const std::size_t file = std::stoul(m[3]);
+        const std::string name = file < files.size() ? files[file] : m[3].str();
+        result += m.prefix().str() + m[1].str() + m[2].str() + name + ":" + m[5].str();
+        const bool in_parentheses = m[4] == "(";
+        rest = m.suffix().str();
+        if (in_parentheses && !rest.empty() && rest.front() == ')') rest.erase(0, 1);
+    }
+    return result + rest;
+}
+
+int declared_fetches(std::string_view path) {
+    const std::string_view text = find_or_throw(path).text;
+    const std::size_t word = text.find("// fetches");
+    if (word == std::string_view::npos)
+        throw GlError(fmt::format("{}: its header has no line '// fetches N', the texture fetches per texel", path));
+    return std::stoi(std::string(text.substr(word + 10, 12)));
+}
+
+}  // namespace eddy::gles

@@ -1,0 +1,19 @@
+// advect_smoke.frag     s = s(x - dt u) exp(-k dt) + dt q    Crane, Llamas & Tariq 2007, ch. 30
+//
+// reads   velocity   RGBA32F  Cells (nx, ny, nz)    [m/s]
+// reads   smoke      R32F     Cells                 [1]
+// writes  s          R32F     Cells                 [1]
+// fetches 3
+#include "fluid/sources.glsl"
+
+uniform sampler2D velocity, smoke;
+uniform float dt_h;     // dt / h  [s/m]
+uniform float remains;  // exp(-k dt)
+
+out float result;
+
+void main() {
+    ivec3 c = cell_here(TARGET);
+    vec3 x = vec3(c) + 0.5;
+    result = remains * sample_linear(smoke, TARGET, x - dt_h * at(velocity, TARGET, c).xyz).x + from_sources(x);
+}

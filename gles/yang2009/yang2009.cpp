@@ -1,0 +1,234 @@
+#include "gles/yang2009/yang2009.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "gles/grid_io.h"
+
+namespace eddy::gles {
+namespace {
+
+/// Texels of the results row: force and moment of each body, then the diagnosis.
+int results_width(const FluidSetup& setup) {
+    return 2 * static_cast<int>(setup.bodies.size()) + 1;
+}
+
+bool measures(const FluidSetup& setup) {
+    return std::any_of(setup.bodies.begin(), setup.bodies.end(),
+                       [](const BodySetup& b) { return b.force || b.torque; });
+}
+
+}  // namespace
+
+Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
+    : Fluid(std::move(setup)),
+      gpu_(gpu),
+      u_(gpu, setup_.cells, Format::RGBA32F),
+      phi_(gpu, setup_.cells, Format::R32F),
+      results_(gpu.textures().lease({results_width(setup_), 1}, Format::RGBA32F)),
+      voxels_(setup_.bodies.empty() ? std::optional<Voxels>()
+                                    : std::optional<Voxels>(std::in_place, gpu, setup_.cells, setup_.bodies)),
+      body_uniforms_(setup_.bodies, setup_.cell_m),
+      advect_velocity_(gpu, "advect velocity", "gles/yang2009/advect_velocity.frag", u_.layout(),
+                       obstacle_variant(voxels())),
+      divergence_(gpu, "divergence", "gles/yang2009/divergence.frag", u_.layout(),
+                  obstacle_variant(voxels())),
+      pressure_(gpu, setup_.cells, voxels()),
+      project_(gpu, "project", "gles/yang2009/project.frag", u_.layout(), obstacle_variant(voxels())),
+      readback_(gpu, {results_width(setup_), 1}) {
+    if (measures(setup_))
+        force_.emplace(gpu, setup_.cells, setup_.cell_m, setup_.bodies, results_width(setup_));
+    for (const SourceSetup& source : setup_.sources) {
+        if (source.velocity_m_s && !drive_)
+            drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", u_.layout());
+        if (source.smoke_per_s > 0.0) {
+            smoke_balls_.push_back(ball_cells(source, setup_.cell_m));
+            smoke_boxes_.push_back(ball_box(smoke_balls_.back(), setup_.cells));
+        }
+    }
+    if (setup_.smoke) {
+        const char* shader = "gles/yang2009/advect_smoke.frag";
+        advect_smoke_.emplace(gpu, "advect smoke", shader, u_.layout());
+        if (!smoke_balls_.empty())
+            smoke_sources_.emplace(gpu, "smoke sources", shader, u_.layout(),
+                                   Variant{.defines = {{"SOURCES", fmt::format("{}", smoke_balls_.size())}}});
+    }
+    reset();
+}
+
+void Yang2009Fluid::reset() {
+    const glm::ivec3 n = setup_.cells;
+    set_velocity(
+        std::vector<glm::vec3>(static_cast<std::size_t>(n.x * n.y * n.z), glm::vec3(setup_.velocity_m_s)));
+    clear(phi_.texture());
+    if (setup_.smoke) {
+        smoke_ = Field<Cells>(gpu_, n, Format::R32F);
+        clear(smoke_->texture());
+    }
+    while (readback_.take(true)) {
+    }
+    step_ = 0;
+    time_s_ = 0.0;
+}
+
+void Yang2009Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool wants_diagnosis) {
+    dt_s_ = dt_s;
+    body_uniforms_.set(bodies);
+    if (voxels_) {
+        Gpu::Stage stage(gpu_, "voxelise");
+        voxels_->update(body_uniforms_);  // T_IO, where the bodies are now
+    }
+    Field<Cells> u;
+    {
+        Gpu::Stage stage(gpu_, "advect velocity");
+        u = drive_sources(advect_velocity());  // u* = u(x - dt u);  u* = u_obstacle in obstacles
+    }
+    if (smoke_) {
+        Gpu::Stage stage(gpu_, "advect smoke");
+        smoke_ = advect_smoke();  // s = s(x - dt u) + dt q
+    }
+    Field<Cells> d;
+    {
+        Gpu::Stage stage(gpu_, "divergence");
+        d = divergence(u);  // d = 1/2 sum (u*_{+} - u*_{-})
+    }
+    {
+        Gpu::Stage stage(gpu_, "pressure");
+        phi_ = pressure_.solve(d, setup_.solver.jacobi_sweeps);  // sum (phi_nb - phi) = d
+    }
+    {
+        Gpu::Stage stage(gpu_, "project");
+        u_ = subtract_gradient(u);  // u = u* - 1/2 (phi_{+} - phi_{-})
+    }
+    ++step_;
+    time_s_ += dt_s;
+    if (force_) {
+        Gpu::Stage stage(gpu_, "force");
+        force_->draw(phi_, *voxels_, body_uniforms_, bodies, *results_);  // F = sum -p n dA
+    }
+    if (wants_diagnosis) {
+        Gpu::Stage stage(gpu_, "diagnose");
+        diagnose(d);
+    }
+    if (force_ || wants_diagnosis) {
+        Gpu::Stage stage(gpu_, "read back");
+        asked_[static_cast<std::size_t>(step_) % asked_.size()] = {dt_s, wants_diagnosis};
+        readback_.request(*results_, step_);
+    }
+}
+
+std::vector<Input> Yang2009Fluid::with_obstacles(std::vector<Input> inputs) const {
+    if (voxels_) inputs.push_back({"obstacles", &voxels_->texture()});
+    return inputs;
+}
+
+Field<Cells> Yang2009Fluid::advect_velocity() {
+    Field<Cells> next(gpu_, setup_.cells, Format::RGBA32F);
+    advect_velocity_.draw(with_obstacles({{"velocity", &u_.texture()}}),
+                          {{"dt_h", static_cast<float>(dt_s_ / setup_.cell_m)}}, {&next.texture()});
+    return next;
+}
+
+Field<Cells> Yang2009Fluid::drive_sources(Field<Cells> u) {
+    for (const SourceSetup& source : setup_.sources) {
+        if (!source.velocity_m_s || !is_running(source, time_s_)) continue;
+        const glm::vec4 ball = ball_cells(source, setup_.cell_m);
+        drive_->draw({}, {{"ball", ball}, {"ball_velocity", glm::vec3(*source.velocity_m_s)}}, {&u.texture()},
+                     Region({ball_box(ball, setup_.cells)}));
+    }
+    return u;
+}
+
+Field<Cells> Yang2009Fluid::advect_smoke() {
+    const Uniform dt_h{"dt_h", static_cast<float>(dt_s_ / setup_.cell_m)};
+    const Uniform remains{"remains", static_cast<float>(std::exp(-setup_.smoke->dissipation_1_s * dt_s_))};
+    const std::vector<Input> inputs{{"velocity", &u_.texture()}, {"smoke", &smoke_->texture()}};
+    Field<Cells> next(gpu_, setup_.cells, Format::R32F);
+    advect_smoke_->draw(inputs, {dt_h, remains}, {&next.texture()});
+    if (smoke_sources_) {
+        std::vector<glm::vec3> gains;
+        for (const SourceSetup& source : setup_.sources)
+            if (source.smoke_per_s > 0.0)
+                gains.emplace_back(is_running(source, time_s_) ? dt_s_ * source.smoke_per_s : 0.0, 0.0, 0.0);
+        smoke_sources_->draw(inputs, {dt_h, remains, {"source_ball", smoke_balls_}, {"source_gain", gains}},
+                             {&next.texture()}, Region(smoke_boxes_));
+    }
+    return next;
+}
+
+Field<Cells> Yang2009Fluid::divergence(const Field<Cells>& u) {
+    Field<Cells> d(gpu_, setup_.cells, Format::R32F);
+    divergence_.draw(with_obstacles({{"velocity", &u.texture()}}), {}, {&d.texture()});
+    return d;
+}
+
+Field<Cells> Yang2009Fluid::subtract_gradient(const Field<Cells>& u) {
+    Field<Cells> next(gpu_, setup_.cells, Format::RGBA32F);
+    project_.draw(with_obstacles({{"velocity", &u.texture()}, {"phi", &phi_.texture()}}), {},
+                  {&next.texture()});
+    return next;
+}
+
+void Yang2009Fluid::diagnose(const Field<Cells>& before) {
+    const glm::ivec2 columns(setup_.cells.x, setup_.cells.y);
+    if (!diagnose_) {
+        Variant variant = obstacle_variant(voxels());
+        variant.layouts.emplace_back("CELLS", u_.layout());
+        if (smoke_) variant.defines.emplace_back("SMOKE", "");
+        diagnose_.emplace(gpu_, "diagnose", "gles/yang2009/diagnose.frag",
+                          AtlasLayout{{columns.x, columns.y, 1}, 1}, variant);
+        reduce_diagnosis_.emplace(gpu_, "reduce diagnosis", columns, glm::ivec2(results_width(setup_), 1),
+                                  "vec4(1.0, 0.0, 0.0, 1.0)");
+    }
+    const Field<Cells> after = divergence(u_);
+    const TexturePool::Lease sums = gpu_.textures().lease(columns, Format::RGBA32F);
+    std::vector<Input> inputs = with_obstacles(
+        {{"velocity", &u_.texture()}, {"divergence", &after.texture()}, {"before", &before.texture()}});
+    if (smoke_) inputs.push_back({"smoke", &smoke_->texture()});
+    diagnose_->draw(inputs, {}, {&*sums});
+    reduce_diagnosis_->draw(*sums, *results_, {results_width(setup_) - 1, 0});
+}
+
+std::optional<StepResult> Yang2009Fluid::result(bool wait) {
+    const auto got = readback_.take(wait);
+    if (!got) return std::nullopt;
+    const Asked& asked = asked_[static_cast<std::size_t>(got->tag) % asked_.size()];
+    const double h = setup_.cell_m;
+    // u = u* - dt/rho grad p with grad p = (p_{+} - p_{-}) / 2h makes phi = dt p / (rho h), and p h^2 = phi
+    // rho h^3 / dt.
+    const double newton = setup_.density_kg_m3 * h * h * h / asked.dt_s;
+
+    StepResult result;
+    result.step = got->tag;
+    for (std::size_t i = 0; i < setup_.bodies.size(); ++i) {
+        Load load;
+        if (setup_.bodies[i].force) load.force_n = newton * glm::dvec3(got->texels[2 * i]);
+        if (setup_.bodies[i].torque) load.torque_nm = newton * h * glm::dvec3(got->texels[2 * i + 1]);
+        result.loads.push_back(load);
+    }
+    if (asked.diagnosed) {
+        const glm::dvec4 d(got->texels.back());
+        result.diagnostics =
+            Diagnostics{d.w / h, d.x / h, 0.5 * setup_.density_kg_m3 * h * h * h * d.y, d.z * h * h * h};
+    }
+    return result;
+}
+
+std::vector<glm::vec3> Yang2009Fluid::velocity() const {
+    return unpack_vectors(u_.texture().download(), u_.layout());
+}
+
+std::vector<float> Yang2009Fluid::pressure() const {
+    std::vector<float> p = unpack_scalars(phi_.texture().download(), phi_.layout());
+    const double pascal = dt_s_ > 0.0 ? setup_.density_kg_m3 * setup_.cell_m / dt_s_ : 0.0;
+    for (float& value : p) value = static_cast<float>(value * pascal);
+    return p;
+}
+
+void Yang2009Fluid::set_velocity(const std::vector<glm::vec3>& u) {
+    const std::vector<glm::vec4> texels = pack_vectors(u, u_.layout());
+    u_.texture().upload(&texels[0].x);
+}
+
+}  // namespace eddy::gles

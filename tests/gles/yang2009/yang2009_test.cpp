@@ -1,0 +1,231 @@
+#include "gles/yang2009/yang2009.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "gles/fluid/cut_cell.h"
+#include "tests/gles/gl_fixture.h"
+#include "tests/gles/yang2009/voxel_grid.h"
+
+namespace eddy::gles {
+namespace {
+
+using Yang2009 = GlTest;
+
+/// The tank of voxel_grid.h with its sphere in it.
+FluidSetup sphere_setup(const VoxelGrid& grid, int sweeps) {
+    FluidSetup s = unit_setup(grid.n, sweeps);
+    s.bodies = grid.bodies();
+    return s;
+}
+
+TEST_F(Yang2009, PressureIsInPascal) {
+    const VoxelGrid grid;
+    FluidSetup setup = sphere_setup(grid, 20);
+    const std::unique_ptr<Fluid> unit = make_fluid(gpu, setup);
+    unit->step(1.0, {grid.state()}, false);
+    const std::vector<float> expected = unit->pressure();
+
+    const double h = 0.004, rho = 998.0, dt = 0.01;
+    setup.cell_m = h;
+    setup.density_kg_m3 = rho;
+    setup.bodies = {BodySetup{Sphere{grid.radius * h}}};
+    const std::unique_ptr<Fluid> water = make_fluid(gpu, setup);
+    BodyState body = grid.state();
+    body.centre_m *= h;
+    body.velocity_m_s *= h / dt;
+    water->step(dt, {body}, false);
+    const std::vector<float> found = water->pressure();
+    const double pascal = rho * (h / dt) * (h / dt);  // p / (rho U^2) is the same
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_NEAR(found[i] / pascal, expected[i], 1e-4);
+}
+
+TEST_F(Yang2009, ConstantSmokeStaysConstantInAnyFlow) {
+    const VoxelGrid grid;
+    FluidSetup setup = sphere_setup(grid, 10);
+    setup.smoke = SmokeSetup{};
+    SourceSetup everywhere;
+    everywhere.radius_m = 100.0;
+    everywhere.smoke_per_s = 2.0;
+    everywhere.stop_s = 0.4;
+    setup.sources = {everywhere};
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    fluid->set_velocity(grid.random_velocity(20));
+    for (int step = 0; step < 5; ++step) fluid->step(0.5, {grid.state()}, false);
+    const Field<Cells>& smoke = *fluid->smoke();
+    for (float s : unpack_scalars(smoke.texture().download(), smoke.layout()))
+        ASSERT_NEAR(s, 1.0f, 2e-6f);  // the source ran for one step of 0.5 s
+}
+
+TEST_F(Yang2009, SmokeFadesExponentially) {
+    VoxelGrid grid;
+    FluidSetup setup = unit_setup(grid.n, 1);
+    setup.smoke = SmokeSetup{.dissipation_1_s = 0.5};
+    SourceSetup everywhere;
+    everywhere.radius_m = 100.0;
+    everywhere.smoke_per_s = 1.0;
+    everywhere.stop_s = 0.5;
+    setup.sources = {everywhere};
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    fluid->step(1.0, {}, true);
+    fluid->step(1.0, {}, true);
+    const double first = fluid->result(true)->diagnostics->smoke_total;
+    const double second = fluid->result(true)->diagnostics->smoke_total;
+    EXPECT_NEAR(first, static_cast<double>(grid.count()), 1e-2);
+    EXPECT_NEAR(second / first, std::exp(-0.5), 1e-5);
+}
+
+TEST_F(Yang2009, JetDrivesTheFluidWhileItRuns) {
+    VoxelGrid grid;
+    FluidSetup setup = unit_setup(grid.n, 20);
+    SourceSetup jet;
+    jet.centre_m = {5.5, 4.5, 6.5};
+    jet.radius_m = 2.0;
+    jet.velocity_m_s = glm::dvec3(0.0, 0.0, 1.0);
+    jet.start_s = 0.1;
+    setup.sources = {jet};
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    const std::size_t middle = grid.index({5, 4, 6});
+    fluid->step(0.1, {}, false);
+    EXPECT_EQ(fluid->velocity()[middle], glm::vec3(0.0f));
+    fluid->step(0.1, {}, false);
+    EXPECT_GT(fluid->velocity()[middle].z, 0.3f);
+}
+
+TEST_F(Yang2009, NormalVelocityIsTheSpheresBesideItAndZeroBesideTheWalls) {
+    const VoxelGrid grid;
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, sphere_setup(grid, 10));
+    fluid->set_velocity(grid.random_velocity(30));
+    fluid->step(0.3, {grid.state()}, false);
+    const std::vector<glm::vec3> u = fluid->velocity();
+    const glm::vec3 sphere(grid.velocity);
+    double slips = 0.0;
+    grid.for_each_cell([&](const glm::ivec3& c) {
+        const glm::vec3 here = u[grid.index(c)];
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::ivec3 e(0);
+            e[axis] = 1;
+            const bool wall = c[axis] == 0 || c[axis] + 1 == grid.n[axis];
+            const bool beside = grid.solid(c) || grid.solid(c + e) || grid.solid(c - e);
+            if (beside || wall) {
+                ASSERT_EQ(here[axis], beside ? sphere[axis] : 0.0f);
+            }
+            if (c.x == 0) slips = std::max(slips, static_cast<double>(std::abs(here.y)));
+        }
+    });
+    EXPECT_GT(slips, 0.1) << "the walls must let the fluid slip";
+}
+
+TEST_F(Yang2009, DiagnosticsEqualAPlainLoop) {
+    VoxelGrid grid;
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, sphere_setup(grid, 10));
+    fluid->set_velocity(grid.random_velocity(40));
+    fluid->step(0.3, {grid.state()}, true);
+    const Diagnostics found = *fluid->result(true)->diagnostics;
+    const std::vector<glm::vec3> u = fluid->velocity();
+    double energy = 0.0, divergence = 0.0;
+    grid.for_each_cell([&](const glm::ivec3& c) {
+        const glm::dvec3 here(u[grid.index(c)]);
+        energy += 0.5 * glm::dot(here, here);
+        double d = 0.0;
+        for (const glm::ivec3& e : kSixWays)
+            if (grid.in_tank(c + e)) d += 0.5 * glm::dot(glm::dvec3(u[grid.index(c + e)]), glm::dvec3(e));
+        if (!grid.solid(c)) divergence = std::max(divergence, std::abs(d));
+    });
+    EXPECT_NEAR(found.kinetic_energy_j, energy, 1e-5 * energy);
+    EXPECT_NEAR(found.divergence_max_1_s, divergence, 1e-5);
+    EXPECT_EQ(found.smoke_total, 0.0);
+}
+
+TEST_F(Yang2009, ProjectionTakesTheDivergenceOutOfASmoothFlow) {
+    VoxelGrid grid;
+    grid.n = glm::ivec3(16);
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, unit_setup(grid.n, 400));
+    std::vector<glm::vec3> u(grid.count());
+    grid.for_each_cell([&](const glm::ivec3& c) {
+        u[grid.index(c)].x = static_cast<float>(std::sin(2.0 * std::numbers::pi * (c.x + 0.5) / 16.0));
+    });
+    fluid->set_velocity(u);
+    fluid->step(1e-3, {}, true);
+    const Diagnostics d = *fluid->result(true)->diagnostics;
+    EXPECT_GT(d.divergence_before_1_s, 0.3);
+    EXPECT_LT(d.divergence_max_1_s, 0.25 * d.divergence_before_1_s);
+}
+
+TEST_F(Yang2009, EachOfTwoSpheresFeelsItsOwnForce) {
+    FluidSetup setup = unit_setup({32, 16, 16}, 60);
+    setup.bodies = {BodySetup{Sphere{3.0}}, BodySetup{Sphere{3.0}}};
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    BodyState moving, resting;
+    moving.centre_m = {8.0, 8.0, 8.0};
+    moving.velocity_m_s = {0.0, 1.0, 0.0};
+    resting.centre_m = {24.0, 8.0, 8.0};
+    fluid->step(1.0, {moving, resting}, false);
+    const std::vector<Load> loads = fluid->result(true)->loads;
+    EXPECT_LT(loads[0].force_n.y, -20.0);  // a quarter of 113 m^3 stopped dead in 1 s
+    EXPECT_LT(glm::length(loads[1].force_n), 0.05 * std::abs(loads[0].force_n.y));
+}
+
+TEST_F(Yang2009, ResetReturnsToTheStartExactly) {
+    const VoxelGrid grid;
+    FluidSetup setup = sphere_setup(grid, 10);
+    setup.velocity_m_s = {0.2, 0.0, 0.1};
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    const auto run = [&] {
+        for (int step = 0; step < 3; ++step) fluid->step(0.4, {grid.state()}, false);
+        return fluid->velocity();
+    };
+    const std::vector<glm::vec3> first = run();
+    fluid->reset();
+    EXPECT_FALSE(fluid->result(true).has_value());
+    EXPECT_EQ(run(), first);
+}
+
+std::vector<std::string> stages_of(Gpu& gpu, const FluidSetup& setup, const std::vector<BodyState>& bodies,
+                                   bool diagnose) {
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    std::vector<std::string> stages;
+    gpu.watch_stages([&](std::string_view stage, bool begins) {
+        if (begins) stages.emplace_back(stage);
+    });
+    fluid->step(0.1, bodies, diagnose);
+    gpu.watch_stages({});
+    return stages;
+}
+
+TEST_F(Yang2009, StagesAreThoseOfThePaper) {
+    const VoxelGrid grid;
+    FluidSetup setup = sphere_setup(grid, 2);
+    setup.smoke = SmokeSetup{};
+    EXPECT_EQ(stages_of(gpu, setup, {grid.state()}, true),
+              (std::vector<std::string>{"voxelise", "advect velocity", "advect smoke", "divergence",
+                                        "pressure", "project", "force", "diagnose", "read back"}));
+    EXPECT_EQ(stages_of(gpu, unit_setup(grid.n, 2), {}, false),
+              (std::vector<std::string>{"advect velocity", "divergence", "pressure", "project"}));
+}
+
+TEST_F(Yang2009, OneReadbackOfThreeTexelsBringsTheForce) {
+    const VoxelGrid grid;
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, sphere_setup(grid, 5));
+    std::vector<PassRecord> records;
+    gpu.record(&records);
+    fluid->step(0.1, {grid.state()}, false);
+    gpu.record(nullptr);
+    const auto passes = [&](std::string_view stage) {
+        return std::count_if(records.begin(), records.end(),
+                             [&](const PassRecord& r) { return r.stage == stage; });
+    };
+    EXPECT_EQ(passes("pressure"), 5);
+    EXPECT_EQ(passes("force"), 1 + 2 * 4);  // T_F and its moment in one pass; 13 7 4 2 1 cells for each
+    EXPECT_EQ(records.back().outputs[0]->size(), glm::ivec2(3, 1));
+}
+
+TEST_F(Yang2009, IsChosenByTheMethodOfTheSetup) {
+    FluidSetup setup = unit_setup(glm::ivec3(8), 1);
+    EXPECT_NE(dynamic_cast<Yang2009Fluid*>(make_fluid(gpu, setup).get()), nullptr);
+    setup.solver.method = Method::CutCell;
+    EXPECT_NE(dynamic_cast<CutCellFluid*>(make_fluid(gpu, setup).get()), nullptr);
+}
+
+}  // namespace
+}  // namespace eddy::gles
