@@ -1,0 +1,90 @@
+#include "firmware/force_plot.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "firmware/text_file.h"
+
+extern char** environ;
+
+namespace eddy {
+namespace {
+
+/// A point of the path, thinned to 25 a second so that arrows stay apart; lengths in mm, forces in N.
+struct Point {
+    double x, y, z, fx, fy, fz;
+    double force() const { return std::sqrt(fx * fx + fy * fy + fz * fz); }
+};
+
+std::vector<Point> read_points(const std::filesystem::path& csv) {
+    std::vector<Point> points;
+    std::ifstream in(csv);
+    std::string line;
+    std::getline(in, line);  // the header
+    for (long n = 0; std::getline(in, line); ++n) {
+        if (n % 40 != 0) continue;
+        std::replace(line.begin(), line.end(), ',', ' ');
+        std::istringstream numbers(line);
+        double t, x, y, z, skip, fx, fy, fz;
+        numbers >> t >> x >> y >> z;
+        for (int i = 0; i < 6; ++i) numbers >> skip;  // raw and filtered force
+        if (numbers >> fx >> fy >> fz) points.push_back({1e3 * x, 1e3 * y, 1e3 * z, fx, fy, fz});
+    }
+    return points;
+}
+
+int run_gnuplot(const std::filesystem::path& script) {
+    std::string program = "gnuplot", argument = script.string();
+    char* arguments[] = {program.data(), argument.data(), nullptr};
+    pid_t child = 0;
+    if (posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ) != 0) return -1;
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& force_csv) {
+    const std::vector<Point> points = read_points(force_csv);
+    double strongest = 0.0;
+    for (const Point& p : points) strongest = std::max(strongest, p.force());
+    // The longest arrow is 30 mm.
+    const double mm_per_n = strongest > 0.0 ? 30.0 / strongest : 0.0;
+
+    // gnuplot's third axis points up, the Device frame's second does: plot x, z towards the visitor, y.
+    std::string data;
+    for (const Point& p : points)
+        data += fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}\n", p.x, p.z, p.y, mm_per_n * p.fx,
+                            mm_per_n * p.fz, mm_per_n * p.fy);
+    const std::filesystem::path folder = force_csv.parent_path(), script = folder / "motion.gnuplot",
+                                picture = folder / "motion.png";
+    replace_text_file(script, fmt::format("set terminal pngcairo size 1000,800\n"
+                                          "set output '{}'\n"
+                                          "$path << EOD\n{}EOD\n"
+                                          "set title 'Hand (blue) and force on it (red; the longest arrow is {:.2f} N)'\n"
+                                          "set xlabel 'x right [mm]'\nset ylabel 'z to the visitor [mm]'\n"
+                                          "set zlabel 'y up [mm]' rotate parallel\n"
+                                          "set view 70, 25\nset xyplane at -60\nset grid\nset key off\n"
+                                          "set xrange [-80:80]\nset yrange [-80:80]\nset zrange [-60:60]\n"
+                                          "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"
+                                          "      $path using 1:2:3 with points pt 7 ps 0.5 lc rgb '#2050c0'\n",
+                                          picture.string(), data, strongest));
+    if (points.empty()) return std::nullopt;
+    if (const int status = run_gnuplot(script); status != 0) {
+        fmt::print(stderr, "no plot of the motion: {}; the script is {}\n",
+                   status < 0 || status == 127 ? "gnuplot is not installed (package gnuplot-nox)" : "gnuplot failed",
+                   script.string());
+        return std::nullopt;
+    }
+    return picture;
+}
+
+}  // namespace eddy

@@ -1,0 +1,9 @@
+#pragma once
+#include <string>
+
+namespace eddy {
+
+/// "model name, N cores, M GB" of the machine this runs on, for reports that quote times.
+std::string describe_machine();
+
+}  // namespace eddy

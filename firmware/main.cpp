@@ -1,0 +1,131 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "config/diagnostic.h"
+#include "firmware/verbs/verbs.h"
+
+// The command line. Exit status: 0 done, 1 failed, 2 wrong usage or bad input.
+
+namespace eddy {
+namespace {
+
+/// CLI11's map of words to an enum, from the words the configuration uses.
+template <class E>
+CLI::CheckedTransformer words() {
+    std::map<std::string, E> map;
+    for (const auto& word : words_of(E{})) map.emplace(std::string(word.word), word.value);
+    return CLI::CheckedTransformer(map);
+}
+
+struct CommandLine {
+    CLI::App app{"Eddy lets people feel a fluid: 3D smoke on the screen, its force in the hand."};
+    RunOptions run;
+    SimulateOptions simulate;
+    BenchOptions bench;
+    std::string check_file, print_scene;
+    std::vector<std::string> print_set;
+    bool print_origin = false;
+
+    CommandLine() {
+        app.set_version_flag("--version", std::string("eddy ") + EDDY_VERSION);
+        app.require_subcommand(1);
+        app.failure_message(CLI::FailureMessage::simple);
+        app.footer("eddy VERB --help says more about each. Exit status: 0 done, 1 failed, 2 wrong usage or bad input.");
+        add_run();
+        add_simulate();
+        add_bench();
+        auto* check = app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
+        check->add_option("FILE", check_file, "the file to check")->required();
+        auto* print = app.add_subcommand("print-config", "Show the merged exhibit settings, or all keys of a scene");
+        print->add_option("SCENE", print_scene, "a scene (shipped name or file); without: the exhibit's settings");
+        print->add_option("--set", print_set, "key=value to change in the scene; may be repeated")->take_all();
+        print->add_flag("--origin", print_origin, "say for each value where it was written");
+    }
+
+    void add_set(CLI::App& verb, std::vector<std::string>& set) {
+        verb.add_option("--set", set, "change a key of the scene: --set solver.dt_s=0.01; may be repeated")
+            ->type_name("KEY=VALUE")
+            ->allow_extra_args(false)
+            ->take_all();
+    }
+
+    void add_run() {
+        auto* verb = app.add_subcommand(
+            "run", "The exhibit: fluid, picture and force. Without options: the real screen and Falcon if there are any,\n"
+                   "else no screen and an emulated hand that moves like a person's");
+        verb->add_option("--scene", run.scene, "shipped scene or file (print-config lists all keys)");
+        add_set(*verb, run.set);
+        verb->add_option("--display", run.display, "where the picture goes")->transform(words<DisplayChoice>());
+        verb->add_option("--haptics", run.haptics, "what the hand holds")->transform(words<HapticsChoice>());
+        verb->add_option("--motion", run.motion, "recorded hand for the emulated Falcon: CSV t_s,x_m,y_m,z_m");
+        verb->add_option("--motion-axes", run.motion_axes,
+                         "device x right, y up, z to the person, in the recording's axes (for z up: x,z,-y)")
+            ->capture_default_str();
+        verb->add_option("--seed", run.seed, "of the emulated person")->capture_default_str();
+        verb->add_option("--seconds", run.seconds, "stop after this long")->check(CLI::PositiveNumber);
+        verb->add_option("--record", run.record, "keep pictures, force.csv and motion.png in this folder");
+        verb->add_option("--fps", run.frames_per_s, "pictures recorded per second")
+            ->check(CLI::Range(0.01, 1000.0))
+            ->capture_default_str();
+        verb->add_option("--clock", run.clock, "stepped: virtual time, the same run bit for bit each time")
+            ->transform(CLI::CheckedTransformer(
+                std::map<std::string, ClockChoice>{{"real", ClockChoice::Real}, {"stepped", ClockChoice::Stepped}}));
+        verb->add_option("--run-dir", run.run_dir, "where status.json goes");
+    }
+
+    void add_simulate() {
+        auto* verb = app.add_subcommand("simulate", "Run any scene without display or hand; write series.csv, summary.json");
+        verb->add_option("SCENE", simulate.scene, "shipped scene or file")->required();
+        add_set(*verb, simulate.set);
+        auto* seconds = verb->add_option("--seconds", simulate.seconds, "simulated time")->check(CLI::PositiveNumber);
+        verb->add_option("--steps", simulate.steps, "number of steps instead")
+            ->check(CLI::PositiveNumber)
+            ->excludes(seconds);
+        verb->add_option("--out", simulate.out, "folder for series.csv, summary.json and the fields the scene asks for");
+        verb->add_flag("--plan", simulate.plan, "print the passes and textures this scene calls for, and stop");
+    }
+
+    void add_bench() {
+        auto* verb = app.add_subcommand("bench", "Time per stage, for each preset and grid, beside the 2009 method");
+        verb->add_option("--scene", bench.scene, "shipped scene or file")->capture_default_str();
+        add_set(*verb, bench.set);
+        verb->add_option("--grid", bench.grids, "cells along x, as 25,32,48")
+            ->delimiter(',')
+            ->check(CLI::Range(8, 512))
+            ->capture_default_str();
+        verb->add_option("--repeats", bench.repeats, "timed steps each")
+            ->check(CLI::Range(1, 100000))
+            ->capture_default_str();
+        verb->add_option("--json", bench.json, "also write the figures to this file");
+    }
+
+    int act() {
+        if (app.got_subcommand("run")) return eddy::run(run);
+        if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
+        if (app.got_subcommand("bench")) return eddy::bench(bench);
+        if (app.got_subcommand("check-config")) return check_config(check_file);
+        return print_config(print_scene, print_set, print_origin);
+    }
+};
+
+}  // namespace
+}  // namespace eddy
+
+int main(int argc, char** argv) {
+    eddy::CommandLine line;
+    try {
+        line.app.parse(argc, argv);
+        return line.act();
+    } catch (const CLI::ParseError& e) {
+        return line.app.exit(e) == 0 ? 0 : 2;
+    } catch (const eddy::ConfigError& e) {
+        fmt::print(stderr, "{}\n", e.what());
+        return 2;
+    } catch (const eddy::UsageError& e) {
+        fmt::print(stderr, "{}\n", e.what());
+        return 2;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "eddy: {}\n", e.what());
+        return 1;
+    }
+}

@@ -1,0 +1,26 @@
+#pragma once
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "gles/fluid/fluid.h"
+
+namespace eddy {
+
+/// series.csv: for each step, one row per body (or one with body "-" when the scene has none). The file appears under
+/// its name only when it is complete. Force and torque are ON the body BY the fluid, Tank frame.
+class Series {
+  public:
+    /// Throws std::runtime_error if the file cannot be written.
+    Series(std::filesystem::path file, std::vector<std::string> bodies);
+    void add(double time_s, const gles::StepResult& result, double step_ms);
+    /// Puts the file in its place. Throws std::runtime_error if the disk did not take it all.
+    void finish();
+
+  private:
+    std::filesystem::path file_, beside_;
+    std::vector<std::string> bodies_;
+    std::ofstream out_;
+};
+
+}  // namespace eddy

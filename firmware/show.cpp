@@ -1,0 +1,82 @@
+#include "firmware/show.h"
+
+#include "firmware/fluid_setup.h"
+
+namespace eddy {
+namespace {
+
+/// Cells between a held body's surface and the walls: enough for the pressure to pass between them.
+constexpr double kWallGapCells = 1.5;
+/// The fluid's period is smoothed over about this many updates.
+constexpr double kPeriodMemory = 8.0;
+
+const Scene::Body* held_body(const Scene& scene) {
+    for (const Scene::Body& body : scene.bodies)
+        if (body.motion == BodyMotion::Held) return &body;
+    return nullptr;
+}
+
+}  // namespace
+
+HapticOrders orders_for(const Scene& scene) {
+    HapticOrders orders;
+    orders.enabled = true;
+    orders.gain = scene.haptics.gain;
+    orders.tank_from_device = {scene.haptics.centre_m, scene.haptics.workspace_scale};
+    const Scene::Body* body = held_body(scene);
+    const double margin = (body ? body->radius_m : 0.0) + kWallGapCells * scene.tank.cell_m();
+    const glm::dvec3 middle = 0.5 * scene.tank.size_m;
+    orders.lowest_m = glm::min(glm::dvec3(margin), middle);
+    orders.highest_m = glm::max(scene.tank.size_m - margin, middle);
+    return orders;
+}
+
+Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange)
+    : scene_(scene),
+      exchange_(exchange),
+      motions_(scene),
+      fluid_(gles::make_fluid(gpu, fluid_setup(scene))),
+      states_(motions_.at(0.0, scene.solver.dt_s)) {}
+
+void Show::update(Instant now, Seconds dt, bool diagnose) {
+    const PoseSnapshot pose = exchange_.pose.newest();
+    time_s_ += dt.count();
+    const std::vector<gles::BodyState> before = states_;
+    states_ = motions_.at(time_s_, dt.count());
+    if (const auto held = motions_.held()) {
+        gles::BodyState& body = states_[*held];
+        if (pose.sequence > 0) body.centre_m = pose.position_m;
+        // Of the displacement, not of the handle: what the body pushes away must agree with where it goes. The first
+        // pose is where the hand happens to be, not a movement.
+        if (figures_.steps > 0) body.velocity_m_s = (body.centre_m - before[*held].centre_m) / dt.count();
+    }
+    const double interval = figures_.steps > 0 ? Seconds(now - last_).count() : dt.count();
+    figures_.fluid_period_s +=
+        (interval - figures_.fluid_period_s) / (figures_.steps > 0 ? kPeriodMemory : 1.0);
+    last_ = now;
+    ++figures_.steps;
+    computed_for_[figures_.steps] = pose.time;
+    fluid_->step(dt.count(), states_, diagnose);
+}
+
+void Show::publish(bool wait) {
+    while (const auto result = fluid_->result(wait)) {
+        wait = false;
+        if (result->diagnostics) {
+            figures_.divergence_before_1_s = result->diagnostics->divergence_before_1_s;
+            figures_.divergence_after_1_s = result->diagnostics->divergence_max_1_s;
+        }
+        const Instant computed_for = computed_for_[result->step];
+        computed_for_.erase(computed_for_.begin(), computed_for_.upper_bound(result->step));
+        const auto held = motions_.held();
+        if (!held) continue;
+        const gles::Load& load = result->loads[*held];
+        exchange_.fluid.publish({load.force_n, load.torque_nm, static_cast<std::uint64_t>(result->step), computed_for,
+                                 Seconds(figures_.fluid_period_s)});
+        const double felt = glm::length(load.force_n) * scene_.haptics.gain;
+        figures_.least_force_n = result->step == 1 ? felt : std::min(figures_.least_force_n, felt);
+        figures_.most_force_n = std::max(figures_.most_force_n, felt);
+    }
+}
+
+}  // namespace eddy

@@ -1,0 +1,21 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "firmware/haptic/exchange.h"
+#include "firmware/show.h"
+
+namespace eddy {
+
+/// What status.json says: enough for someone who cannot see the screen to tell whether the exhibit is well.
+struct Status {
+    std::string scene, renderer, display, haptic_device;
+    double uptime_s = 0.0;
+    ShowFigures show;
+    LoopReport loop;
+};
+
+/// Replaces the file in one step. A disk that is full or gone must not stop the show: returns false then.
+bool write_status(const std::filesystem::path& file, const Status& status);
+
+}  // namespace eddy

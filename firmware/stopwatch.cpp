@@ -1,0 +1,51 @@
+#include "firmware/stopwatch.h"
+
+#include <time.h>
+
+#include <algorithm>
+
+namespace eddy {
+namespace {
+
+double milliseconds(clockid_t clock) {
+    timespec t{};
+    clock_gettime(clock, &t);
+    return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
+double at_rank(std::vector<double> values, double rank) {
+    if (values.empty()) return 0.0;
+    const auto index = static_cast<std::ptrdiff_t>(rank * static_cast<double>(values.size() - 1) + 0.5);
+    std::nth_element(values.begin(), values.begin() + index, values.end());
+    return values[static_cast<std::size_t>(index)];
+}
+
+}  // namespace
+
+double median(std::vector<double> values) { return at_rank(std::move(values), 0.5); }
+double percentile_95(std::vector<double> values) { return at_rank(std::move(values), 0.95); }
+
+Stopwatch::Moment Stopwatch::now() {
+    gles::finish();
+    return {milliseconds(CLOCK_PROCESS_CPUTIME_ID), milliseconds(CLOCK_MONOTONIC)};
+}
+
+Stopwatch::Stopwatch(gles::Gpu& gpu) : gpu_(gpu) {
+    gpu_.watch_stages([this](std::string_view stage, bool begins) {
+        if (!on_) return;
+        if (begins) {
+            begun_.push_back(now());
+            return;
+        }
+        const Moment end = now(), begin = begun_.back();
+        begun_.pop_back();
+        const std::string name(stage);
+        if (!timings_.contains(name)) order_.push_back(name);
+        timings_[name].cpu_ms.push_back(end.cpu_ms - begin.cpu_ms);
+        timings_[name].wall_ms.push_back(end.wall_ms - begin.wall_ms);
+    });
+}
+
+Stopwatch::~Stopwatch() { gpu_.watch_stages({}); }
+
+}  // namespace eddy

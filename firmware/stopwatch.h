@@ -1,0 +1,50 @@
+#pragma once
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gles/gpu.h"
+
+namespace eddy {
+
+/// Times in ms of repeated work: processor time of the whole process (what a software rasteriser costs, however busy the
+/// machine is) and wall time.
+struct Timings {
+    std::vector<double> cpu_ms, wall_ms;
+    bool empty() const { return wall_ms.empty(); }
+};
+
+double median(std::vector<double> values);
+/// The value that 95 % of them do not exceed.
+double percentile_95(std::vector<double> values);
+
+/// Times stages of a step while it is on: waits for the GPU at each stage's begin and end, so that a stage is charged
+/// with its own work and nothing else. That waiting costs; time whole steps without it.
+class Stopwatch {
+  public:
+    explicit Stopwatch(gles::Gpu& gpu);
+    ~Stopwatch();
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+    void set_on(bool on) { on_ = on; }
+    /// Stages in the order they first ran.
+    const std::vector<std::string>& stages() const { return order_; }
+    const Timings& of(const std::string& stage) const { return timings_.at(stage); }
+
+    struct Moment {
+        double cpu_ms, wall_ms;
+    };
+    /// Waits for the GPU, then reads both clocks.
+    static Moment now();
+
+  private:
+    gles::Gpu& gpu_;
+    bool on_ = false;
+    std::vector<std::string> order_;
+    std::map<std::string, Timings> timings_;
+    std::vector<Moment> begun_;
+};
+
+}  // namespace eddy

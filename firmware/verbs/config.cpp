@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include "config/exhibit.h"
+#include "config/scene.h"
+#include "firmware/body_motion.h"
+#include "firmware/text_file.h"
+#include "firmware/verbs/verbs.h"
+
+namespace eddy {
+namespace {
+
+/// A scene file has tables that an exhibit's settings never have.
+bool looks_like_a_scene(const std::string& file) {
+    const std::string text = read_text_file(file);
+    for (const std::string_view table : {"[tank]", "[[body]]", "[[source]]", "[fluid]", "[solver]", "[smoke]"})
+        if (text.find(table) != std::string::npos) return true;
+    return false;
+}
+
+}  // namespace
+
+int check_config(const std::string& file) {
+    if (looks_like_a_scene(file)) {
+        BodyMotions{load_scene(is_scene_file(file) ? file : "./" + file).scene};
+        fmt::print("{}: a good scene\n", file);
+    } else {
+        load_exhibit_file(file);
+        fmt::print("{}: good exhibit settings\n", file);
+    }
+    return 0;
+}
+
+int print_config(const std::string& scene, const std::vector<std::string>& set, bool origin) {
+    if (scene.empty()) {
+        const LoadedExhibit loaded = load_exhibit();
+        fmt::print("{}", print_exhibit(loaded.exhibit, origin ? &loaded.origins : nullptr));
+    } else {
+        const LoadedScene loaded = load_scene(scene, set);
+        fmt::print("{}", print_scene(loaded.scene, origin ? &loaded.origins : nullptr));
+    }
+    return 0;
+}
+
+}  // namespace eddy

@@ -1,0 +1,307 @@
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstring>
+#include <thread>
+
+#include "config/scene.h"
+#include "firmware/graphics.h"
+#include "firmware/haptic/loop.h"
+#include "firmware/haptic/realtime.h"
+#include "firmware/progress.h"
+#include "firmware/recorder.h"
+#include "firmware/show.h"
+#include "firmware/status.h"
+#include "firmware/stopwatch.h"
+#include "firmware/text_file.h"
+#include "firmware/verbs/verbs.h"
+#include "gles/render/renderer.h"
+#include "hal/haptic/emulated/make_emulated_falcon.h"
+#include "hal/haptic/emulated/person_motion.h"
+#include "hal/haptic/emulated/recorded_motion.h"
+
+namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A fluid step covers the time since the last one, but never more: after a stall the fluid loses time instead of
+/// leaping.
+constexpr Seconds kLongestStep{0.1};
+/// One step in this many is timed stage by stage and diagnosed; both make it wait for the GPU.
+constexpr long kMeasureEvery = 20;
+/// Recording pictures may take this share of the time; the fluid has the rest.
+constexpr double kRenderShare = 0.4;
+
+std::atomic<bool> g_stop{false};
+
+void stop_on_signals() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { g_stop = true; };
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+std::unique_ptr<Display> make_display(DisplayChoice choice) {
+    if (choice == DisplayChoice::Kms)
+        throw UsageError("--display kms: this version cannot drive a screen yet; use headless, or auto");
+    return make_headless_display();
+}
+
+/// The device the visitor holds; null when there is to be none.
+std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoice choice) {
+    if (choice == HapticsChoice::None) return nullptr;
+    if (choice == HapticsChoice::Falcon)
+        throw UsageError("--haptics falcon: this version cannot drive a real Falcon yet; use emulated, or auto");
+    emulated::EmulatedFalconSettings settings;
+    std::unique_ptr<emulated::HandMotion> motion;
+    if (options.motion.empty()) {
+        emulated::PersonSettings person;
+        person.seed = options.seed;
+        motion = std::make_unique<emulated::PersonMotion>(person);
+    } else {
+        settings.plant.hand = emulated::Hand::OnPath;  // a recording is what a hand did, whatever it felt
+        try {
+            motion = std::make_unique<emulated::RecordedMotion>(read_text_file(options.motion), options.motion,
+                                                                emulated::AxisMap(options.motion_axes),
+                                                                emulated::AtEnd::Loop);
+        } catch (const std::invalid_argument& e) {
+            throw UsageError(fmt::format("--motion-axes {}: {}", options.motion_axes, e.what()));
+        } catch (const std::runtime_error& e) {
+            throw UsageError(e.what());
+        }
+    }
+    return emulated::make_emulated_falcon(std::move(motion), settings);
+}
+
+gles::RenderSetup render_setup(const Scene& scene) {
+    gles::RenderSetup r;
+    r.width_px = scene.render.width_px;
+    r.height_px = scene.render.height_px;
+    r.azimuth_deg = scene.render.azimuth_deg;
+    r.elevation_deg = scene.render.elevation_deg;
+    r.distance = scene.render.distance_factor;
+    r.optical_density_1_m = scene.render.extinction_1_m;
+    r.smoke_colour = scene.render.smoke_colour;
+    r.background_colour = scene.render.background_colour;
+    r.exposure = scene.render.exposure;
+    return r;
+}
+
+/// Everything one run holds, wired together.
+class Run {
+  public:
+    Run(const RunOptions& options, const Exhibit& exhibit, const Scene& scene)
+        : options_(options),
+          scene_(scene),
+          device_(make_device(options, options.haptics.value_or(exhibit.haptics))),
+          graphics_(make_display(options.display.value_or(exhibit.display))),
+          show_(graphics_.gpu, scene, exchange_),
+          stopwatch_(graphics_.gpu),
+          trace_(20000) {
+        if (!options.record.empty()) {
+            recorder_.emplace(options.record);
+            renderer_.emplace(graphics_.gpu, show_.fluid().setup(), render_setup(scene));
+        }
+        HapticLoopSettings settings;
+        settings.gate.max_force_n = std::min(scene.haptics.max_force_n, exhibit.max_force_n);
+        if (device_) loop_.emplace(*device_, exchange_, trace_, settings);
+        exchange_.orders.publish(orders_for(scene));
+        // status.json goes where it is asked for; by default to the run folder of the service, if there is one.
+        if (!options.run_dir.empty()) make_folder(options.run_dir);
+        const std::filesystem::path folder = options.run_dir.empty() ? exhibit.run_dir : std::filesystem::path(options.run_dir);
+        if (std::filesystem::is_directory(folder)) status_file_ = folder / "status.json";
+    }
+
+    void real();
+    void stepped();
+    /// Completes the recording.
+    void finish() {
+        progress_.finish();
+        if (recorder_) recorder_->finish();
+    }
+    /// Ten lines on standard output.
+    void summarise() const;
+
+  private:
+    Instant end() const {
+        return options_.seconds ? std::chrono::duration_cast<Instant>(Seconds(*options_.seconds)) : Instant::max();
+    }
+    void fluid_update(Instant now, Seconds dt);
+    void record_frame();
+    void drain_trace();
+    void report(Instant now, bool force = false);
+
+    RunOptions options_;
+    Scene scene_;
+    std::unique_ptr<HapticDevice> device_;
+    HapticExchange exchange_;
+    Graphics graphics_;
+    Show show_;
+    Stopwatch stopwatch_;
+    TickTrace trace_;
+    std::vector<TickRecord> ticks_{4096};
+    std::optional<HapticLoop> loop_;
+    std::optional<gles::Renderer> renderer_;
+    std::optional<Recorder> recorder_;
+    std::filesystem::path status_file_;
+    Instant status_due_{0}, frame_due_{0};
+    double sent_most_n_ = 0.0;
+    LoopReport loop_report_;
+    double clock_s_ = 0.0, wall_s_ = 0.0;
+    Progress progress_{"run"};
+};
+
+void Run::fluid_update(Instant now, Seconds dt) {
+    const bool measure = show_.figures().steps % kMeasureEvery == kMeasureEvery / 2;
+    stopwatch_.set_on(measure);
+    show_.update(now, dt, measure);
+    stopwatch_.set_on(false);
+}
+
+void Run::record_frame() {
+    stopwatch_.set_on(true);
+    renderer_->draw(show_.fluid(), show_.bodies());
+    stopwatch_.set_on(false);
+    recorder_->add(*renderer_, scene_.render.width_px, scene_.render.height_px);
+}
+
+void Run::drain_trace() {
+    while (const std::size_t count = trace_.drain(ticks_)) {
+        for (std::size_t i = 0; i < count; ++i)
+            sent_most_n_ = std::max(sent_most_n_, glm::length(ticks_[i].sent_force_n));
+        if (recorder_) recorder_->add({ticks_.data(), count});
+    }
+}
+
+void Run::report(Instant now, bool force) {
+    loop_report_ = exchange_.report.newest();
+    if (options_.seconds)
+        progress_.show(Seconds(now).count(), *options_.seconds, fmt::format("{} fluid steps", show_.figures().steps));
+    if (status_file_.empty() || (now < status_due_ && !force)) return;
+    status_due_ = now + 1s;
+    write_status(status_file_, {scene_.title, graphics_.gpu.capabilities().renderer, graphics_.display->describe(),
+                                device_ ? device_->describe() : "none", Seconds(now).count(), show_.figures(),
+                                loop_report_});
+}
+
+/// Both loops on their own threads and the machine's clock, as a visitor meets them.
+void Run::real() {
+    RealClock clock;
+    std::atomic<bool> stop_loop{false};
+    RealtimeGrant grant;
+    std::thread haptic_thread;
+    if (loop_)
+        haptic_thread = std::thread([&] {
+            grant = grant_realtime(MemoryLock::No);
+            loop_->run(clock, stop_loop);
+        });
+    const Instant period = std::chrono::duration_cast<Instant>(Seconds(scene_.solver.dt_s));
+    const Instant frame_period = std::chrono::duration_cast<Instant>(Seconds(1.0 / options_.frames_per_s));
+    Instant last = clock.now(), now = last;
+    while (!g_stop && now < end()) {
+        clock.sleep_until(last + period);
+        now = clock.now();
+        fluid_update(now, std::min(Seconds(now - last), kLongestStep));
+        last = now;
+        show_.publish(false);
+        if (recorder_ && now >= frame_due_) {
+            record_frame();
+            const Instant took = clock.now() - now;
+            frame_due_ = now + std::max(frame_period, Instant(static_cast<Instant::rep>(
+                                                          static_cast<double>(took.count()) / kRenderShare)));
+        }
+        show_.publish(false);
+        drain_trace();
+        report(now);
+    }
+    stop_loop = true;
+    if (haptic_thread.joinable()) haptic_thread.join();
+    drain_trace();
+    clock_s_ = wall_s_ = Seconds(clock.now()).count();
+    report(now, true);
+    if (loop_ && !grant.fifo)
+        fmt::print(stderr, "the haptic thread has no real-time priority ({}); set LimitRTPRIO=50 in its unit\n",
+                   std::strerror(grant.fifo_error));
+}
+
+/// Both loops on one virtual clock and one thread: the same input gives the same run, bit for bit. The fluid's answer
+/// reaches the hand one fluid period after its question, as on a GPU that works on it meanwhile.
+void Run::stepped() {
+    SteppedClock clock;
+    const RealClock wall;
+    const Instant period = std::chrono::duration_cast<Instant>(Seconds(scene_.solver.dt_s));
+    const Instant frame_period = std::chrono::duration_cast<Instant>(Seconds(1.0 / options_.frames_per_s));
+    Instant fluid_due = period;
+    const Instant stop = options_.seconds ? end() : Instant::max() - period;
+    for (Instant t{0}; !g_stop && t < stop; t += kTick) {
+        clock.sleep_until(t);
+        if (loop_) loop_->tick(clock.now());
+        if (t + kTick < fluid_due) continue;
+        show_.publish(show_.figures().steps > 0);
+        fluid_update(fluid_due, Seconds(period));
+        if (recorder_ && fluid_due >= frame_due_) {
+            record_frame();
+            frame_due_ += frame_period;
+        }
+        fluid_due += period;
+        drain_trace();
+        report(t);
+    }
+    drain_trace();
+    show_.publish(true);
+    clock_s_ = Seconds(clock.now()).count();
+    wall_s_ = Seconds(wall.now()).count();
+    report(clock.now(), true);
+}
+
+void Run::summarise() const {
+    const ShowFigures& f = show_.figures();
+    const auto print_stages = [&] {
+        std::string text;
+        for (const std::string& stage : stopwatch_.stages())
+            text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", stage, median(stopwatch_.of(stage).wall_ms));
+        return text;
+    };
+    fmt::print("scene       {} ({}x{}x{} cells of {:.2f} mm)\n", scene_.title, scene_.tank.cells.x, scene_.tank.cells.y,
+               scene_.tank.cells.z, scene_.tank.cell_m() * 1e3);
+    fmt::print("renderer    {}, {}\n", graphics_.gpu.capabilities().renderer, graphics_.display->describe());
+    fmt::print("hand        {}\n", device_ ? device_->describe() : "none");
+    fmt::print("fluid       {} steps in {:.1f} s of {} clock: {:.1f} steps/s\n", f.steps, clock_s_,
+               options_.clock == ClockChoice::Real ? "real" : "stepped", static_cast<double>(f.steps) / wall_s_);
+    fmt::print("ms a stage  {} (wall, median of one step in {})\n", print_stages(), kMeasureEvery);
+    fmt::print("divergence  {:.3g} 1/s before the projection, {:.3g} 1/s after it ({:.0f}-fold)\n",
+               f.divergence_before_1_s, f.divergence_after_1_s,
+               f.divergence_after_1_s > 0.0 ? f.divergence_before_1_s / f.divergence_after_1_s : 0.0);
+    fmt::print("force       {:.3g} to {:.3g} N from the fluid after gain, at most {:.3g} N sent\n", f.least_force_n,
+               f.most_force_n, sent_most_n_);
+    fmt::print("haptic loop {} ticks in {:.1f} s: {:.0f} Hz; {} late, {} left out, worst {:.2f} ms\n", loop_report_.ticks,
+               clock_s_, clock_s_ > 0.0 ? static_cast<double>(loop_report_.ticks) / clock_s_ : 0.0, loop_report_.late,
+               loop_report_.missed, Seconds(loop_report_.worst_late).count() * 1e3);
+    fmt::print("gate        {}; clamped {}, slewed {}, not finite {}\n", to_string(loop_report_.reason),
+               loop_report_.gate.clamped, loop_report_.gate.slewed, loop_report_.gate.non_finite);
+    if (recorder_)
+        fmt::print("recorded    {} pictures, force.csv and motion.png in {}\n", recorder_->frames(),
+                   recorder_->folder().string());
+    else
+        fmt::print("recorded    nothing (--record DIR keeps pictures and forces)\n");
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+    stop_on_signals();
+    const Exhibit exhibit = load_exhibit().exhibit;
+    const Scene scene = load_scene(options.scene.empty() ? exhibit.scene : options.scene, options.set).scene;
+    if (options.clock == ClockChoice::Stepped && !options.seconds)
+        throw UsageError("--clock stepped: say how long with --seconds, or it would never end");
+    Run run(options, exhibit, scene);
+    if (options.clock == ClockChoice::Real) run.real();
+    else run.stepped();
+    run.finish();
+    run.summarise();
+    return 0;
+}
+
+}  // namespace eddy

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "firmware/body_motion.h"
+#include "firmware/fluid_setup.h"
+#include "firmware/graphics.h"
+#include "firmware/npy.h"
+#include "firmware/plan.h"
+#include "firmware/progress.h"
+#include "firmware/series.h"
+#include "firmware/text_file.h"
+#include "firmware/verbs/verbs.h"
+#include "gles/fluid/fluid.h"
+#include "gles/grid_io.h"
+
+namespace eddy {
+namespace {
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// What the whole run came to, for summary.json and the terminal.
+struct Summary {
+    long steps = 0;
+    double seconds = 0.0;  // simulated
+    double wall_s = 0.0;
+    double divergence_cut = 0.0;  // least factor by which a step cut max |div u|
+    gles::StepResult last;
+};
+
+void add_to(Summary& summary, const gles::StepResult& result) {
+    ++summary.steps;
+    summary.last = result;
+    const gles::Diagnostics& d = *result.diagnostics;
+    if (d.divergence_max_1_s <= 0.0) return;
+    const double cut = d.divergence_before_1_s / d.divergence_max_1_s;
+    summary.divergence_cut = summary.divergence_cut > 0.0 ? std::min(summary.divergence_cut, cut) : cut;
+}
+
+std::string to_json(const Summary& s, const LoadedScene& loaded, const gles::Gpu& gpu) {
+    nlohmann::ordered_json j;
+    j["title"] = loaded.scene.title;
+    j["renderer"] = gpu.capabilities().renderer;
+    j["gl_version"] = gpu.capabilities().version;
+    j["eddy_version"] = EDDY_VERSION;
+    j["steps"] = s.steps;
+    j["simulated_s"] = s.seconds;
+    j["wall_s"] = s.wall_s;
+    j["least_divergence_cut"] = s.divergence_cut;
+    for (std::size_t i = 0; i < loaded.scene.bodies.size(); ++i) {
+        const gles::Load& load = s.last.loads[i];
+        j["bodies"].push_back({{"name", loaded.scene.bodies[i].name},
+                               {"last_force_n", {load.force_n.x, load.force_n.y, load.force_n.z}},
+                               {"last_torque_nm", {load.torque_nm.x, load.torque_nm.y, load.torque_nm.z}}});
+    }
+    if (s.last.diagnostics) {
+        j["kinetic_energy_j"] = s.last.diagnostics->kinetic_energy_j;
+        j["divergence_max_1_s"] = s.last.diagnostics->divergence_max_1_s;
+        j["smoke_total"] = s.last.diagnostics->smoke_total;
+    }
+    return j.dump(2) + "\n";
+}
+
+void write_fields(const std::filesystem::path& out, const Scene& scene, const gles::Fluid& fluid) {
+    const glm::ivec3 n = scene.tank.cells;
+    for (const OutputField field : scene.outputs.fields) {
+        if (field == OutputField::Velocity) {
+            const std::vector<glm::vec3> u = fluid.velocity();
+            const int extra = static_cast<int>(u.size()) == n.x * n.y * n.z ? 0 : 1;  // faces: one layer more
+            write_npy(out / "velocity.npy", {&u[0].x, 3 * u.size()}, {n.z + extra, n.y + extra, n.x + extra, 3});
+        } else if (field == OutputField::Pressure) {
+            write_npy(out / "pressure.npy", fluid.pressure(), {n.z, n.y, n.x});
+        } else {
+            const gles::Field<gles::Cells>& smoke = *fluid.smoke();
+            write_npy(out / "smoke.npy", gles::unpack_scalars(smoke.texture().download(), smoke.layout()),
+                      {n.z, n.y, n.x});
+        }
+    }
+}
+
+}  // namespace
+
+int simulate(const SimulateOptions& options) {
+    const LoadedScene loaded = load_scene(options.scene, options.set);
+    const Scene& scene = loaded.scene;
+    const BodyMotions motions(scene);
+    Graphics graphics(make_headless_display());
+    if (options.plan) {
+        fmt::print("{}", plan_of(graphics.gpu, fluid_setup(scene), motions, scene.solver.dt_s));
+        return 0;
+    }
+
+    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(graphics.gpu, fluid_setup(scene));
+    const double dt = scene.solver.dt_s;
+    const long steps = options.steps ? *options.steps
+                                     : std::lround(options.seconds.value_or(scene.outputs.duration_s) / dt);
+    std::optional<Series> series;
+    if (!options.out.empty()) {
+        make_folder(options.out);
+        std::vector<std::string> names;
+        for (const Scene::Body& body : scene.bodies) names.push_back(body.name);
+        if (scene.outputs.series) series.emplace(std::filesystem::path(options.out) / "series.csv", names);
+    }
+
+    Summary summary;
+    Progress progress("simulate");
+    const auto start = std::chrono::steady_clock::now();
+    for (long n = 1; n <= steps; ++n) {
+        const auto step_start = std::chrono::steady_clock::now();
+        const double t = static_cast<double>(n) * dt;
+        fluid->step(dt, motions.at(t, dt), true);
+        const gles::StepResult result = *fluid->result(true);
+        add_to(summary, result);
+        if (series) series->add(t, result, milliseconds_since(step_start));
+        progress.show(static_cast<double>(n), static_cast<double>(steps));
+    }
+    progress.finish();
+    summary.seconds = static_cast<double>(steps) * dt;
+    summary.wall_s = milliseconds_since(start) / 1e3;
+
+    fmt::print("{}: {} steps of {} s on {}\n", scene.title.empty() ? options.scene : scene.title, summary.steps, dt,
+               graphics.gpu.capabilities().renderer);
+    fmt::print("{:.1f} steps/s; each step cut the divergence by a factor of {:.0f} or more\n",
+               static_cast<double>(steps) / summary.wall_s, summary.divergence_cut);
+    for (std::size_t i = 0; i < scene.bodies.size() && steps > 0; ++i) {
+        const glm::dvec3 f = summary.last.loads[i].force_n;
+        fmt::print("force on {} at the end: ({:.4e}, {:.4e}, {:.4e}) N\n", scene.bodies[i].name, f.x, f.y, f.z);
+    }
+    if (!options.out.empty()) {
+        const std::filesystem::path out(options.out);
+        if (series) series->finish();
+        write_fields(out, scene, *fluid);
+        replace_text_file(out / "summary.json", to_json(summary, loaded, graphics.gpu));
+        fmt::print("written to {}\n", options.out);
+    }
+    return 0;
+}
+
+}  // namespace eddy

@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/exhibit.h"
+
+namespace eddy {
+
+// The verbs of the command line. Each returns the exit status: 0 done, 1 failed. Bad input is thrown (ConfigError,
+// UsageError) and becomes 2 in main.cpp.
+
+/// Something wrong with the command line itself: one line saying what, and what to write instead.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct SimulateOptions {
+    std::string scene;
+    std::vector<std::string> set;        ///< key=value
+    std::optional<double> seconds;
+    std::optional<long> steps;
+    std::string out;                     ///< folder; empty: print the summary only
+    bool plan = false;                   ///< print the passes and textures the scene calls for, and stop
+};
+int simulate(const SimulateOptions& options);
+
+struct BenchOptions {
+    std::string scene = "bench";
+    std::vector<std::string> set;
+    std::vector<int> grids{25, 32, 48, 64, 96, 128};
+    int repeats = 30;
+    std::string json;                    ///< file; empty: none
+};
+int bench(const BenchOptions& options);
+
+enum class ClockChoice { Real, Stepped };
+
+struct RunOptions {
+    std::string scene;                   ///< empty: what the exhibit's configuration says
+    std::vector<std::string> set;
+    std::optional<DisplayChoice> display;
+    std::optional<HapticsChoice> haptics;
+    std::string motion;                  ///< CSV for the emulated hand; empty: a person-like motion
+    std::string motion_axes = "x,z,-y";  ///< which way the recording's axes point
+    std::uint64_t seed = 1;
+    std::optional<double> seconds;       ///< none: until told to stop
+    std::string record;                  ///< folder for pictures and force.csv
+    double frames_per_s = 10.0;          ///< pictures recorded per second
+    ClockChoice clock = ClockChoice::Real;
+    std::string run_dir;                 ///< where status.json goes; empty: from the configuration, if writable
+};
+int run(const RunOptions& options);
+
+int check_config(const std::string& file);
+int print_config(const std::string& scene, const std::vector<std::string>& set, bool origin);
+
+}  // namespace eddy
