@@ -3,20 +3,28 @@
 #include <cmath>
 #include <numbers>
 
+#include "firmware/input_error.h"
 #include "firmware/text_file.h"
 
 namespace eddy {
+namespace {
+
+std::unique_ptr<emulated::RecordedMotion> read_path(const std::filesystem::path& csv) {
+    try {
+        return std::make_unique<emulated::RecordedMotion>(read_text_file(csv), csv.string(), emulated::AxisMap("x,y,z"),
+                                                          emulated::AtEnd::Hold);
+    } catch (const std::runtime_error& e) {
+        throw InputError(e.what());
+    }
+}
+
+}  // namespace
 
 BodyMotions::BodyMotions(const Scene& scene) : bodies_(scene.bodies) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Scene::Body& body = bodies_[i];
         if (body.motion == BodyMotion::Held) held_ = i;
-        paths_.push_back(body.path_csv.empty()
-                             ? nullptr
-                             : std::make_unique<emulated::RecordedMotion>(read_text_file(body.path_csv),
-                                                                          body.path_csv.string(),
-                                                                          emulated::AxisMap("x,y,z"),
-                                                                          emulated::AtEnd::Hold));
+        paths_.push_back(body.path_csv.empty() ? nullptr : read_path(body.path_csv));
     }
 }
 

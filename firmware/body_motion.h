@@ -13,7 +13,7 @@ namespace eddy {
 /// at their centre_m.
 class BodyMotions {
   public:
-    /// Reads the paths; throws std::runtime_error "file:line: ..." if one is wrong.
+    /// Reads the paths; throws InputError "file:line: ..." if one is wrong.
     explicit BodyMotions(const Scene& scene);
 
     /// States at the end of a step from time_s - dt_s to time_s. Velocities are those of the displacement during the

@@ -1,6 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "config/diagnostic.h"
 #include "firmware/verbs/verbs.h"
 
@@ -9,13 +11,43 @@
 namespace eddy {
 namespace {
 
-/// CLI11's map of words to an enum, from the words the configuration uses.
+/// Takes one of these words for an enum; `words` as the configuration writes them.
 template <class E>
-CLI::CheckedTransformer words() {
-    std::map<std::string, E> map;
-    for (const auto& word : words_of(E{})) map.emplace(std::string(word.word), word.value);
-    return CLI::CheckedTransformer(map);
+void choose(CLI::Option& option, std::span<const Word<E>> words) {
+    std::string choice;
+    for (const Word<E>& word : words) choice += fmt::format("{}{}", choice.empty() ? "" : "|", word.word);
+    option.type_name(choice);
+    option.transform(CLI::Validator(
+        [words, choice](std::string& text) {
+            for (const Word<E>& word : words)
+                if (word.word == text) {
+                    text = std::to_string(static_cast<int>(word.value));
+                    return std::string();
+                }
+            return fmt::format("'{}' is not one of {}", text, choice);
+        },
+        ""));
 }
+
+/// low <= number <= high; a number that is none (nan) is refused too.
+CLI::Validator number_from(double low, double high) {
+    return CLI::Validator(
+        [low, high](std::string& text) {
+            double number = 0.0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+            if (error == std::errc{} && end == text.data() + text.size() && number >= low && number <= high)
+                return std::string();
+            return fmt::format("'{}' is not a number from {} to {}", text, low, high);
+        },
+        "");
+}
+
+constexpr double kShortestS = 1e-3, kLongestS = 1e9;  // of a run; 30 years, well inside 64 bits of ns
+
+constexpr Word<ClockChoice> kClockChoices[] = {
+    {ClockChoice::Real, "real", "the machine's"},
+    {ClockChoice::Stepped, "stepped", "virtual time"},
+};
 
 struct CommandLine {
     CLI::App app{"Eddy lets people feel a fluid: 3D smoke on the screen, its force in the hand."};
@@ -29,7 +61,9 @@ struct CommandLine {
     CommandLine() {
         app.set_version_flag("--version", std::string("eddy ") + EDDY_VERSION);
         app.require_subcommand(1);
-        app.failure_message(CLI::FailureMessage::simple);
+        app.failure_message([](const CLI::App*, const CLI::Error& e) {
+            return fmt::format("eddy: {}; eddy --help and eddy VERB --help say what can be written\n", e.what());
+        });
         app.footer("eddy VERB --help says more about each. Exit status: 0 done, 1 failed, 2 wrong usage or bad input.");
         add_run();
         add_simulate();
@@ -38,7 +72,7 @@ struct CommandLine {
         check->add_option("FILE", check_file, "the file to check")->required();
         auto* print = app.add_subcommand("print-config", "Show the merged exhibit settings, or all keys of a scene");
         print->add_option("SCENE", print_scene, "a scene (shipped name or file); without: the exhibit's settings");
-        print->add_option("--set", print_set, "key=value to change in the scene; may be repeated")->take_all();
+        add_set(*print, print_set);
         print->add_flag("--origin", print_origin, "say for each value where it was written");
     }
 
@@ -55,21 +89,20 @@ struct CommandLine {
                    "else no screen and an emulated hand that moves like a person's");
         verb->add_option("--scene", run.scene, "shipped scene or file (print-config lists all keys)");
         add_set(*verb, run.set);
-        verb->add_option("--display", run.display, "where the picture goes")->transform(words<DisplayChoice>());
-        verb->add_option("--haptics", run.haptics, "what the hand holds")->transform(words<HapticsChoice>());
+        choose(*verb->add_option("--display", run.display, "where the picture goes"), words_of(DisplayChoice{}));
+        choose(*verb->add_option("--haptics", run.haptics, "what the hand holds"), words_of(HapticsChoice{}));
         verb->add_option("--motion", run.motion, "recorded hand for the emulated Falcon: CSV t_s,x_m,y_m,z_m");
         verb->add_option("--motion-axes", run.motion_axes,
                          "device x right, y up, z to the person, in the recording's axes (for z up: x,z,-y)")
             ->capture_default_str();
         verb->add_option("--seed", run.seed, "of the emulated person")->capture_default_str();
-        verb->add_option("--seconds", run.seconds, "stop after this long")->check(CLI::PositiveNumber);
+        verb->add_option("--seconds", run.seconds, "stop after this long")->check(number_from(kShortestS, kLongestS));
         verb->add_option("--record", run.record, "keep pictures, force.csv and motion.png in this folder");
         verb->add_option("--fps", run.frames_per_s, "pictures recorded per second")
-            ->check(CLI::Range(0.01, 1000.0))
+            ->check(number_from(0.01, 1000.0))
             ->capture_default_str();
-        verb->add_option("--clock", run.clock, "stepped: virtual time, the same run bit for bit each time")
-            ->transform(CLI::CheckedTransformer(
-                std::map<std::string, ClockChoice>{{"real", ClockChoice::Real}, {"stepped", ClockChoice::Stepped}}));
+        choose(*verb->add_option("--clock", run.clock, "stepped: virtual time, the same run bit for bit each time"),
+               std::span<const Word<ClockChoice>>(kClockChoices));
         verb->add_option("--run-dir", run.run_dir, "where status.json goes");
     }
 
@@ -77,7 +110,7 @@ struct CommandLine {
         auto* verb = app.add_subcommand("simulate", "Run any scene without display or hand; write series.csv, summary.json");
         verb->add_option("SCENE", simulate.scene, "shipped scene or file")->required();
         add_set(*verb, simulate.set);
-        auto* seconds = verb->add_option("--seconds", simulate.seconds, "simulated time")->check(CLI::PositiveNumber);
+        auto* seconds = verb->add_option("--seconds", simulate.seconds, "simulated time")->check(number_from(1e-9, kLongestS));
         verb->add_option("--steps", simulate.steps, "number of steps instead")
             ->check(CLI::PositiveNumber)
             ->excludes(seconds);
@@ -121,7 +154,7 @@ int main(int argc, char** argv) {
     } catch (const eddy::ConfigError& e) {
         fmt::print(stderr, "{}\n", e.what());
         return 2;
-    } catch (const eddy::UsageError& e) {
+    } catch (const eddy::InputError& e) {
         fmt::print(stderr, "{}\n", e.what());
         return 2;
     } catch (const std::exception& e) {

@@ -13,17 +13,23 @@ double milliseconds(clockid_t clock) {
     return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
-double at_rank(std::vector<double> values, double rank) {
-    if (values.empty()) return 0.0;
-    const auto index = static_cast<std::ptrdiff_t>(rank * static_cast<double>(values.size() - 1) + 0.5);
-    std::nth_element(values.begin(), values.begin() + index, values.end());
-    return values[static_cast<std::size_t>(index)];
+double at_place(std::vector<double> values, std::size_t place) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
 }
 
 }  // namespace
 
-double median(std::vector<double> values) { return at_rank(std::move(values), 0.5); }
-double percentile_95(std::vector<double> values) { return at_rank(std::move(values), 0.95); }
+double median(std::vector<double> values) {
+    const std::size_t middle = values.size() / 2;
+    return values.empty() ? 0.0 : at_place(std::move(values), middle);
+}
+
+double percentile_95(std::vector<double> values) {
+    const std::size_t rank = (95 * values.size() + 99) / 100;  // rounded up, counted from 1
+    return values.empty() ? 0.0 : at_place(std::move(values), rank - 1);
+}
 
 Stopwatch::Moment Stopwatch::now() {
     gles::finish();

@@ -15,8 +15,9 @@ struct Timings {
     bool empty() const { return wall_ms.empty(); }
 };
 
+/// The value in the middle (of an even number: the upper of the two); 0 of none.
 double median(std::vector<double> values);
-/// The value that 95 % of them do not exceed.
+/// The least value that 95 % of them do not exceed; 0 of none.
 double percentile_95(std::vector<double> values);
 
 /// Times stages of a step while it is on: waits for the GPU at each stage's begin and end, so that a stage is charged

@@ -16,6 +16,7 @@ struct PassRecord {
     std::string pass;
     std::vector<std::string> inputs;         ///< sampler names
     std::vector<const Texture*> outputs;
+    int draws = 0;                           ///< draw calls: one, or one for each box that is not empty
     std::int64_t texels = 0;                 ///< texels written (one per fragment, whatever the number of outputs)
     std::int64_t bytes = 0;                  ///< bytes written
     std::int64_t fetches = 0;                ///< texture fetches, as declared by the shader

@@ -159,11 +159,13 @@ void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& un
         checked_ = true;
     }
 
+    int draws = 0;
     std::int64_t texels = 0;
     if (region.is_everything()) {
         glUniform4i(rect_, 0, 0, 2 * size.x, 2 * size.y);
         glUniform1i(first_slab_, 0);
         glDrawArrays(GL_TRIANGLES, 0, 3);
+        ++draws;
         texels = std::int64_t{size.x} * size.y;
     }
     for (const Box& wanted : region.boxes()) {
@@ -173,6 +175,7 @@ void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& un
         glUniform1i(first_slab_, box.lo.z);
         const glm::ivec3 extent = box.hi - box.lo;
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, extent.z);
+        ++draws;
         texels += std::int64_t{extent.x} * extent.y * extent.z;
     }
     if (gpu_->recording()) {
@@ -181,6 +184,7 @@ void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& un
         for (const Input& input : inputs)
             if (find(input.name)) record.inputs.emplace_back(input.name);
         record.outputs = outputs;
+        record.draws = draws;
         record.texels = texels;
         for (const Texture* texture : outputs)
             record.bytes += texels * static_cast<std::int64_t>(bytes_per_texel(texture->format()));

@@ -68,6 +68,10 @@ class Expander {
 }  // namespace
 
 ShaderSource load_shader(std::string_view path, std::string_view switches, std::string_view declarations) {
+    return expand_shader(find_or_throw(path), switches, declarations);
+}
+
+ShaderSource expand_shader(const EmbeddedFile& file, std::string_view switches, std::string_view declarations) {
     ShaderSource source;
     source.text =
         "#version 300 es\n"
@@ -75,8 +79,9 @@ ShaderSource load_shader(std::string_view path, std::string_view switches, std::
     source.text += switches;
     Expander expander(source);
     expander.expand(find_or_throw("gles/atlas.glsl"));
-    source.text += declarations;
-    expander.expand(find_or_throw(path));
+    source.text += fmt::format("#line 1 {}\n{}", source.files.size(), declarations);
+    source.files.push_back(fmt::format("declarations for {}", file.name));
+    expander.expand(file);
     return source;
 }
 

@@ -3,6 +3,8 @@
 #include <string_view>
 #include <vector>
 
+#include "cmake/embedded.h"
+
 namespace eddy::gles {
 
 /// A shader with its #include lines expanded, ready to compile. Every part keeps its own file and line.
@@ -18,6 +20,9 @@ struct ShaderSource {
 /// from gles/) once. In front of it: `#version 300 es`, the precisions, `switches` (#defines), gles/atlas.glsl and
 /// `declarations` (constants and functions). Throws GlError with file and line when an include is missing.
 ShaderSource load_shader(std::string_view path, std::string_view switches, std::string_view declarations);
+
+/// The same for a shader that is not among the embedded ones; its includes are.
+ShaderSource expand_shader(const EmbeddedFile& file, std::string_view switches, std::string_view declarations);
 
 /// The first number after "fetches" in the shader's header: texture fetches for one texel written.
 int declared_fetches(std::string_view path);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/body_motion.h"
+#include "firmware/destination.h"
 #include "firmware/fluid_setup.h"
 #include "firmware/graphics.h"
 #include "firmware/machine.h"
@@ -138,6 +139,8 @@ std::string to_json(const std::vector<Measurement>& all, const gles::Capabilitie
 
 int bench(const BenchOptions& options) {
     const Scene scene = load_scene(options.scene, options.set).scene;
+    BodyMotions{scene};  // reads the paths
+    if (!options.json.empty()) check_destination("--json", options.json);
     Graphics graphics(make_headless_display());
     const gles::Capabilities& driver = graphics.gpu.capabilities();
     fmt::print("{} ({}, {})\n{}\n", driver.renderer, driver.vendor, driver.version, describe_machine());

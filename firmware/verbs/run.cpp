@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "config/scene.h"
+#include "firmware/destination.h"
 #include "firmware/graphics.h"
 #include "firmware/haptic/loop.h"
 #include "firmware/haptic/realtime.h"
@@ -45,15 +46,26 @@ void stop_on_signals() {
 
 std::unique_ptr<Display> make_display(DisplayChoice choice) {
     if (choice == DisplayChoice::Kms)
-        throw UsageError("--display kms: this version cannot drive a screen yet; use headless, or auto");
+        throw InputError("--display kms: this version cannot drive a screen yet; use headless, or auto");
     return make_headless_display();
+}
+
+emulated::AxisMap axes_of(const RunOptions& options) {
+    try {
+        return emulated::AxisMap(options.motion_axes);
+    } catch (const std::invalid_argument& e) {
+        throw InputError(fmt::format("--motion-axes: {}", e.what()));
+    }
 }
 
 /// The device the visitor holds; null when there is to be none.
 std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoice choice) {
+    if (choice == HapticsChoice::None && !options.motion.empty())
+        throw InputError("--motion: there is no hand to move; leave out --haptics none");
+    const emulated::AxisMap axes = axes_of(options);
     if (choice == HapticsChoice::None) return nullptr;
     if (choice == HapticsChoice::Falcon)
-        throw UsageError("--haptics falcon: this version cannot drive a real Falcon yet; use emulated, or auto");
+        throw InputError("--haptics falcon: this version cannot drive a real Falcon yet; use emulated, or auto");
     emulated::EmulatedFalconSettings settings;
     std::unique_ptr<emulated::HandMotion> motion;
     if (options.motion.empty()) {
@@ -63,13 +75,10 @@ std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoi
     } else {
         settings.plant.hand = emulated::Hand::OnPath;  // a recording is what a hand did, whatever it felt
         try {
-            motion = std::make_unique<emulated::RecordedMotion>(read_text_file(options.motion), options.motion,
-                                                                emulated::AxisMap(options.motion_axes),
+            motion = std::make_unique<emulated::RecordedMotion>(read_text_file(options.motion), options.motion, axes,
                                                                 emulated::AtEnd::Loop);
-        } catch (const std::invalid_argument& e) {
-            throw UsageError(fmt::format("--motion-axes {}: {}", options.motion_axes, e.what()));
         } catch (const std::runtime_error& e) {
-            throw UsageError(e.what());
+            throw InputError(fmt::format("--motion: {}", e.what()));
         }
     }
     return emulated::make_emulated_falcon(std::move(motion), settings);
@@ -92,11 +101,12 @@ gles::RenderSetup render_setup(const Scene& scene) {
 /// Everything one run holds, wired together.
 class Run {
   public:
-    Run(const RunOptions& options, const Exhibit& exhibit, const Scene& scene)
+    Run(const RunOptions& options, const Exhibit& exhibit, const Scene& scene, std::unique_ptr<HapticDevice> device,
+        std::unique_ptr<Display> display)
         : options_(options),
           scene_(scene),
-          device_(make_device(options, options.haptics.value_or(exhibit.haptics))),
-          graphics_(make_display(options.display.value_or(exhibit.display))),
+          device_(std::move(device)),
+          graphics_(std::move(display)),
           show_(graphics_.gpu, scene, exchange_),
           stopwatch_(graphics_.gpu),
           trace_(20000) {
@@ -109,7 +119,6 @@ class Run {
         if (device_) loop_.emplace(*device_, exchange_, trace_, settings);
         exchange_.orders.publish(orders_for(scene));
         // status.json goes where it is asked for; by default to the run folder of the service, if there is one.
-        if (!options.run_dir.empty()) make_folder(options.run_dir);
         const std::filesystem::path folder = options.run_dir.empty() ? exhibit.run_dir : std::filesystem::path(options.run_dir);
         if (std::filesystem::is_directory(folder)) status_file_ = folder / "status.json";
     }
@@ -295,8 +304,13 @@ int run(const RunOptions& options) {
     const Exhibit exhibit = load_exhibit().exhibit;
     const Scene scene = load_scene(options.scene.empty() ? exhibit.scene : options.scene, options.set).scene;
     if (options.clock == ClockChoice::Stepped && !options.seconds)
-        throw UsageError("--clock stepped: say how long with --seconds, or it would never end");
-    Run run(options, exhibit, scene);
+        throw InputError("--clock stepped: say how long with --seconds, or it would never end");
+    BodyMotions{scene};  // reads the paths
+    std::unique_ptr<HapticDevice> device = make_device(options, options.haptics.value_or(exhibit.haptics));
+    std::unique_ptr<Display> display = make_display(options.display.value_or(exhibit.display));
+    if (!options.record.empty()) prepare_folder("--record", options.record);
+    if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);
+    Run run(options, exhibit, scene, std::move(device), std::move(display));
     if (options.clock == ClockChoice::Real) run.real();
     else run.stepped();
     run.finish();

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/body_motion.h"
+#include "firmware/destination.h"
 #include "firmware/fluid_setup.h"
 #include "firmware/graphics.h"
 #include "firmware/npy.h"
@@ -81,25 +82,34 @@ void write_fields(const std::filesystem::path& out, const Scene& scene, const gl
     }
 }
 
+/// At least one: a run of none has no last step to report.
+long steps_of(const SimulateOptions& options, const Scene& scene) {
+    if (options.steps) return *options.steps;
+    const double seconds = options.seconds.value_or(scene.outputs.duration_s), dt = scene.solver.dt_s;
+    if (seconds < 0.5 * dt)
+        throw InputError(fmt::format("{}: {} s is less than half a step of solver.dt_s = {} s",
+                                     options.seconds ? "--seconds" : "outputs.duration_s", seconds, dt));
+    return std::lround(seconds / dt);
+}
+
 }  // namespace
 
 int simulate(const SimulateOptions& options) {
     const LoadedScene loaded = load_scene(options.scene, options.set);
     const Scene& scene = loaded.scene;
     const BodyMotions motions(scene);
+    const double dt = scene.solver.dt_s;
+    const long steps = steps_of(options, scene);
+    if (!options.out.empty() && !options.plan) prepare_folder("--out", options.out);
     Graphics graphics(make_headless_display());
     if (options.plan) {
-        fmt::print("{}", plan_of(graphics.gpu, fluid_setup(scene), motions, scene.solver.dt_s));
+        fmt::print("{}", plan_of(graphics.gpu, fluid_setup(scene), motions, dt));
         return 0;
     }
 
     const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(graphics.gpu, fluid_setup(scene));
-    const double dt = scene.solver.dt_s;
-    const long steps = options.steps ? *options.steps
-                                     : std::lround(options.seconds.value_or(scene.outputs.duration_s) / dt);
     std::optional<Series> series;
     if (!options.out.empty()) {
-        make_folder(options.out);
         std::vector<std::string> names;
         for (const Scene::Body& body : scene.bodies) names.push_back(body.name);
         if (scene.outputs.series) series.emplace(std::filesystem::path(options.out) / "series.csv", names);
@@ -125,7 +135,7 @@ int simulate(const SimulateOptions& options) {
                graphics.gpu.capabilities().renderer);
     fmt::print("{:.1f} steps/s; each step cut the divergence by a factor of {:.0f} or more\n",
                static_cast<double>(steps) / summary.wall_s, summary.divergence_cut);
-    for (std::size_t i = 0; i < scene.bodies.size() && steps > 0; ++i) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const glm::dvec3 f = summary.last.loads[i].force_n;
         fmt::print("force on {} at the end: ({:.4e}, {:.4e}, {:.4e}) N\n", scene.bodies[i].name, f.x, f.y, f.z);
     }

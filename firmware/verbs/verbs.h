@@ -5,16 +5,12 @@
 #include <vector>
 
 #include "config/exhibit.h"
+#include "firmware/input_error.h"
 
 namespace eddy {
 
 // The verbs of the command line. Each returns the exit status: 0 done, 1 failed. Bad input is thrown (ConfigError,
-// UsageError) and becomes 2 in main.cpp.
-
-/// Something wrong with the command line itself: one line saying what, and what to write instead.
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
+// InputError) and becomes 2 in main.cpp, before any work was done.
 
 struct SimulateOptions {
     std::string scene;

@@ -6,14 +6,14 @@
 
 namespace eddy::gles {
 
-/// A camera that circles the middle of the tank and looks at it. Angles as a visitor would walk and rise; the frame is
-/// Tank (hal/frames.h). It has no degenerate pose: straight from above, the right edge of the picture still is the
-/// camera's own right.
+/// A camera that circles the middle of the tank and looks at it. Angles as a visitor would walk and rise; the
+/// frame is Tank (hal/frames.h). It has no degenerate pose: straight from above, the right edge of the
+/// picture still is the camera's own right.
 struct Camera {
     double azimuth_deg = 20.0;    ///< 0 in front of the tank (+z), 90 on its right (+x)
     double elevation_deg = 15.0;  ///< 0 level with the middle of the tank, 90 above it
     double distance = 1.5;        ///< from the middle of the tank, in tank diagonals
-    double field_deg = 36.0;      ///< seen across the shorter side of the picture
+    double field_deg = 38.0;      ///< seen across the shorter side of the picture
 
     /// Unit vector from the middle of the tank to the eye.
     glm::dvec3 backward() const {
@@ -29,11 +29,12 @@ struct Camera {
     glm::dvec3 eye(const glm::dvec3& tank_size) const {
         return 0.5 * tank_size + distance * glm::length(tank_size) * backward();
     }
-    /// Columns that turn (x, y, 1) into the direction of a ray (not a unit vector), where x and y run from -1 to 1
-    /// across a picture of this width / height.
+    /// Columns that turn (x, y, 1) into the direction of a ray (not a unit vector), where x and y run from -1
+    /// to 1 across a picture of this width / height.
     glm::dmat3 rays(double aspect) const {
         const double half = std::tan(0.5 * glm::radians(field_deg));
-        return {right() * half * std::max(aspect, 1.0), up() * half * std::max(1.0 / aspect, 1.0), -backward()};
+        return {right() * half * std::max(aspect, 1.0), up() * half * std::max(1.0 / aspect, 1.0),
+                -backward()};
     }
 };
 

@@ -8,8 +8,8 @@
 #include "ray.glsl"
 
 uniform sampler2D light, front, behind;
-uniform vec3 eye;          // [cells]
-uniform mat3 rays;         // see Camera
+uniform vec3 eye;              // [cells]
+uniform mat3 rays;             // see Camera
 uniform vec3 to_key, to_fill;  // unit vectors towards the lights
 uniform vec3 smoke_colour, background_colour;
 uniform float exposure;
@@ -17,7 +17,7 @@ uniform float pixel_angle;  // of one pixel  [rad]
 
 out vec4 colour;
 
-const vec3 kKey = vec3(1.55, 1.2, 0.82);     // warm, from the upper left
+const vec3 kKey = vec3(1.55, 1.2, 0.82);    // warm, from the upper left
 const vec3 kFill = vec3(0.10, 0.19, 0.36);  // cool, from the other side
 const vec3 kBody = vec3(0.95, 0.17, 0.05);
 const vec3 kFloor = vec3(0.05, 0.05, 0.052);
@@ -45,8 +45,7 @@ vec3 room(vec3 d) {
 vec3 table(vec3 x, float t, vec3 d) {
     vec3 size = vec3(CELLS);
     vec2 from_middle = (x.xz - 0.5 * size.xz) / length(size);
-    // The ray to the light passes through the tank where it last leaves it: the shadow outside is that of the point
-    // where it enters.
+    // Outside the tank, light arrives as it does where the ray towards it enters the tank, if it does.
     vec2 span = tank_span(x, to_key);
     float lit = span.x < span.y ? light_at(x + span.x * to_key).x : 1.0;
     vec3 c = kFloor * (kKey * max(to_key.y, 0.0) * lit * exp(-5.0 * dot(from_middle, from_middle)) + kFill);
@@ -65,21 +64,25 @@ vec3 table(vec3 x, float t, vec3 d) {
 #ifdef BODY
 vec3 body(vec3 x, vec3 d) {
     vec3 n = body_normal(x);
-    vec2 lit = light_at(x + n + to_key);  // out of the body's own shadow, which its normal gives more sharply
-    float key = max(0.85 * dot(n, to_key) + 0.15, 0.0) * lit.x;
+    vec2 lit = light_at(x + n + 2.0 * to_key);             // clear of the body's own shadow, which its normal gives
+    float wrapped = max(0.8 * dot(n, to_key) + 0.2, 0.0);  // soft across the terminator, as by a large lamp
+    float key = wrapped * wrapped * lit.x;
     float fill = (0.6 + 0.4 * dot(n, to_fill)) * (0.3 + 0.7 * lit.y);
     float rim = pow(1.0 - max(dot(n, -d), 0.0), 3.0);
     float gloss = pow(max(dot(n, normalize(to_key - d)), 0.0), 60.0) * lit.x;
-    return kBody * (kKey * key + kFill * fill) + 0.35 * kKey * gloss + 1.5 * kFill * rim * fill;
+    return kBody * (1.2 * kKey * key + (kFill + 0.2) * fill) + 0.35 * kKey * gloss + 1.5 * kFill * rim * fill;
 }
 #endif
 
-// Edges of the tank where the ray crosses its surface at x.
-float edges(vec3 x, float t) {
-    vec3 size = vec3(CELLS);
-    vec3 d = min(abs(x), abs(size - x));
-    float second = max(min(d.x, d.y), min(max(d.x, d.y), d.z));
-    return line(second, 0.12, t * pixel_angle);
+// Edges of the tank where the ray along d crosses its surface at x, `pixel` cells wide there. The glass reaches one pixel
+// beyond the fluid, so that the lines, drawn in its middle, are smooth on both sides.
+float edges(vec3 x, vec3 d, float pixel) {
+    vec3 to_face = min(x, vec3(CELLS) - x) + pixel;
+    vec3 face = vec3(lessThanEqual(to_face, vec3(min(to_face.x, min(to_face.y, to_face.z)))));
+    vec3 slant = d / max(dot(face, abs(d)), 0.02);
+    vec3 blur = pixel * sqrt(1.0 + slant * slant);
+    vec3 off = abs(to_face - pixel) + 1e3 * face;
+    return max(line(off.x, 0.4 * pixel, blur.x), max(line(off.y, 0.4 * pixel, blur.y), line(off.z, 0.4 * pixel, blur.z)));
 }
 
 #ifdef SMOKE
@@ -112,18 +115,22 @@ void main() {
         float t = -eye.y / d.y;
         c = table(eye + t * d, t, d);
     }
-    c += 0.5 * kGlass * (span.x < span.y ? edges(eye + span.y * d, span.y) : 0.0);
+    float pixel = pixel_angle * distance(eye, 0.5 * vec3(CELLS));
+    vec2 glass = box_span(eye, d, vec3(-pixel), vec3(CELLS) + pixel);
+    bool through_glass = glass.x < glass.y;
+    if (through_glass) c += 0.5 * kGlass * edges(eye + glass.y * d, d, pixel);
 #if defined(SMOKE) && defined(BODY)
     c = through(c, texture(behind, at_pixel), d);
 #endif
 #ifdef BODY
     // A miss by less than a pixel is a partial hit: a smooth silhouette.
     vec2 met = meet_body(eye, d, span);
-    c = mix(c, body(eye + met.x * d, d), clamp(1.0 - (met.y - kTouch) / (met.x * pixel_angle), 0.0, 1.0));
+    float covered = clamp(1.0 - (met.y - kTouch) / (met.x * pixel_angle), 0.0, 1.0);
+    if (covered > 0.0) c = mix(c, body(eye + met.x * d, d), covered);
 #endif
 #ifdef SMOKE
     c = through(c, texture(front, at_pixel), d);
 #endif
-    if (span.x < span.y) c += 0.5 * kGlass * edges(eye + span.x * d, span.x);
+    if (through_glass) c += 0.5 * kGlass * edges(eye + glass.x * d, d, pixel);
     colour = vec4(displayed(c) + (pixel_noise() - 0.5) / 255.0, 1.0);
 }

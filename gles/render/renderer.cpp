@@ -6,14 +6,19 @@
 namespace eddy::gles {
 namespace {
 
-glm::ivec3 half(const glm::ivec3& n) { return (n + 1) / 2; }
-AtlasLayout pixels(const glm::ivec2& size) { return {{size, 1}, 1}; }
+glm::ivec3 half(const glm::ivec3& n) {
+    return (n + 1) / 2;
+}
+AtlasLayout pixels(const glm::ivec2& size) {
+    return {{size, 1}, 1};
+}
 
 /// What the passes of this scene are compiled with.
 Variant scene_variant(const FluidSetup& fluid) {
-    Variant v{.layouts = {{"SMOKE_CELLS", Cells::layout(fluid.cells)},
-                          {"LIGHT", Cells::layout(half(fluid.cells))}},
-              .defines = {{"CELLS", fmt::format("ivec3({}, {}, {})", fluid.cells.x, fluid.cells.y, fluid.cells.z)}}};
+    Variant v{
+        .layouts = {{"SMOKE_CELLS", Cells::layout(fluid.cells)}, {"LIGHT", Cells::layout(half(fluid.cells))}},
+        .defines = {
+            {"CELLS", fmt::format("ivec3({}, {}, {})", fluid.cells.x, fluid.cells.y, fluid.cells.z)}}};
     if (fluid.smoke) v.defines.emplace_back("SMOKE", "");
     if (!fluid.bodies.empty()) {
         v.defines.emplace_back("BODY", "");
@@ -37,7 +42,8 @@ Renderer::Renderer(Gpu& gpu, const FluidSetup& fluid, const RenderSetup& setup)
       draw_picture_(gpu, "picture", "gles/render/picture.frag", pixels(picture_.get()->size()),
                     scene_variant(fluid)) {
     if (!fluid.smoke) return;
-    pair_smoke_.emplace(gpu, "pair smoke", "gles/render/pair_smoke.frag", Cells::layout(fluid.cells), Variant{});
+    pair_smoke_.emplace(gpu, "pair smoke", "gles/render/pair_smoke.frag", Cells::layout(fluid.cells),
+                        Variant{});
     pair_light_.emplace(gpu, "pair light", "gles/render/pair_light.frag", light_.layout(), Variant{});
     march_smoke_.emplace(gpu, "smoke", "gles/render/smoke.frag", pixels(march_size_), scene_variant(fluid));
 }
@@ -47,9 +53,11 @@ void Renderer::draw(const Fluid& fluid, const std::vector<BodyState>& bodies) {
     const Camera camera{setup_.azimuth_deg, setup_.elevation_deg, setup_.distance};
     const double aspect = static_cast<double>(setup_.width_px) / setup_.height_px;
     body_uniforms_.set(bodies);
-    const glm::dvec3 to_fill(-setup_.to_key.x, 0.5 * std::abs(setup_.to_key.y), std::abs(setup_.to_key.x));
+    const glm::dvec3 to_key = glm::normalize(setup_.to_key);
+    // The fill light comes from the other side, lower and from the front.
+    const glm::dvec3 to_fill(-to_key.x, 0.5 * std::abs(to_key.y) + 0.1, std::abs(to_key.x) + 0.1);
     std::vector<Uniform> uniforms{
-        {"to_key", glm::vec3(glm::normalize(setup_.to_key))},
+        {"to_key", glm::vec3(to_key)},
         {"to_fill", glm::vec3(glm::normalize(to_fill))},
         {"extinction", static_cast<float>(setup_.optical_density_1_m * cell_m_)},
         {"eye", glm::vec3(camera.eye(glm::dvec3(n)))},
@@ -58,7 +66,8 @@ void Renderer::draw(const Fluid& fluid, const std::vector<BodyState>& bodies) {
         {"smoke_colour", glm::vec3(setup_.smoke_colour)},
         {"background_colour", glm::vec3(setup_.background_colour)},
         {"exposure", static_cast<float>(setup_.exposure)},
-        {"pixel_angle", static_cast<float>(glm::radians(camera.field_deg) / std::min(setup_.width_px, setup_.height_px))}};
+        {"pixel_angle",
+         static_cast<float>(glm::radians(camera.field_deg) / std::min(setup_.width_px, setup_.height_px))}};
     if (!bodies.empty()) {
         uniforms.push_back(body_uniforms_.centre());
         uniforms.push_back(body_uniforms_.size());
@@ -93,7 +102,8 @@ void Renderer::draw(const Fluid& fluid, const std::vector<BodyState>& bodies) {
         layers.push_back(&*behind);
         inputs.push_back({"behind", &*behind});
     }
-    march_smoke_->draw({{"smoke", &smoke_pair.texture()}, {"light", &light_pair.texture()}}, uniforms, layers);
+    march_smoke_->draw({{"smoke", &smoke_pair.texture()}, {"light", &light_pair.texture()}}, uniforms,
+                       layers);
     draw_picture_.draw(inputs, uniforms, {&*picture_});
 }
 
@@ -114,15 +124,16 @@ std::vector<std::uint8_t> Renderer::rgb() const {
 
 void Renderer::show(int width_px, int height_px) const {
     const glm::ivec2 size = picture().size();
-    const double scale = std::min(static_cast<double>(width_px) / size.x, static_cast<double>(height_px) / size.y);
+    const double scale =
+        std::min(static_cast<double>(width_px) / size.x, static_cast<double>(height_px) / size.y);
     const glm::ivec2 shown(glm::round(scale * glm::dvec2(size)));
     const glm::ivec2 low = (glm::ivec2(width_px, height_px) - shown) / 2;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, gpu_.framebuffer({&picture()}));
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
     glClear(GL_COLOR_BUFFER_BIT);
-    glBlitFramebuffer(0, 0, size.x, size.y, low.x, low.y, low.x + shown.x, low.y + shown.y, GL_COLOR_BUFFER_BIT,
-                      GL_LINEAR);
+    glBlitFramebuffer(0, 0, size.x, size.y, low.x, low.y, low.x + shown.x, low.y + shown.y,
+                      GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 
 }  // namespace eddy::gles

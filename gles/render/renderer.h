@@ -14,20 +14,20 @@ namespace eddy::gles {
 struct RenderSetup {
     int width_px = 640;
     int height_px = 480;
-    double azimuth_deg = 20.0;            ///< see Camera
+    double azimuth_deg = 20.0;  ///< see Camera
     double elevation_deg = 15.0;
     double distance = 1.5;
-    double optical_density_1_m = 60.0;    ///< light falls to 1/e in 1 / this through smoke of density 1
+    double optical_density_1_m = 40.0;  ///< light falls to 1/e in 1 / this through smoke of density 1
     glm::dvec3 smoke_colour{0.90, 0.93, 0.97};
     glm::dvec3 background_colour{0.02, 0.03, 0.06};
     double exposure = 1.0;
-    glm::dvec3 to_key{-0.72, 0.66, 0.10};  ///< direction towards the key light, Tank frame; any length
-    int steps = 64;                        ///< of a ray along the diagonal of the tank; shorter rays take fewer
-    bool half_resolution = true;           ///< smoke is marched for every second pixel in x and y, and interpolated
+    glm::dvec3 to_key{-0.66, 0.66, 0.30};  ///< direction towards the key light, Tank frame; any length
+    int steps = 96;               ///< of a ray along the diagonal of the tank; shorter rays take fewer
+    bool half_resolution = true;  ///< smoke is marched for every second pixel in x and y, and interpolated
 };
 
-/// Draws the tank, the smoke and the bodies into a texture. GL thread only. What the scene has not (smoke, bodies) costs
-/// nothing: no texture, no pass, no branch.
+/// Draws the tank, the smoke and the bodies into a texture. GL thread only. What the scene has not (smoke,
+/// bodies) costs nothing: no texture, no pass, no branch.
 class Renderer {
   public:
     Renderer(Gpu& gpu, const FluidSetup& fluid, const RenderSetup& setup);
@@ -41,7 +41,8 @@ class Renderer {
     std::vector<std::uint8_t> rgb() const;
     /// Copies the picture to the window (the default framebuffer) as large as fits, black beside it.
     void show(int width_px, int height_px) const;
-    /// Key light (r) and fill light (g) that arrive in each cell of half the grid (of ceil(n / 2) cells), 0 .. 1, as last drawn.
+    /// Key light (r) and fill light (g) that arrive in each cell of half the grid (of ceil(n / 2) cells), 0
+    /// .. 1, as last drawn.
     const Field<Cells>& light() const { return light_; }
 
   private:

@@ -2,14 +2,13 @@
 //
 // reads   smoke   RG32F    Cells (nx, ny, nz)        two layers of s, see pair_smoke.frag
 // reads   light   RGBA32F  Cells of half the grid    two layers of L of the two lights, see pair_light.frag
-// writes  front   RGBA16F  pixels                r, g: k of key and fill light, a: T; up to the body, or about where
-//                                                the ray comes nearest to it; far from it, everything
-// writes  behind  RGBA16F  pixels                the same for the rest of the ray    variant BODY
-// fetches 80
+// writes  front   RGBA16F  pixels, maybe half        r, g: k of key and fill light, a: T; up to the body, or about where
+//                                                    the ray comes nearest to it; far from it, everything
+// writes  behind  RGBA16F  the same                  the rest of the ray    variant BODY
+// fetches 120
 //
 // Two layers, so that the picture can decide for each of its own pixels, finer than these, whether the body hides what
-// is behind it; neither has a jump anywhere, so that both can be
-// interpolated.
+// is behind it; neither has a jump anywhere, so that both can be interpolated.
 #include "ray.glsl"
 
 uniform sampler2D smoke, light;

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <regex>
+
+#include "tests/end_to_end/program.h"
+
+namespace eddy {
+namespace {
+
+/// The table that `eddy simulate --plan` prints.
+struct PrintedPlan {
+    std::string text;
+    std::array<long, 4> sums{}, total{};  // times, texels, bytes, fetches
+
+    bool names(const std::string& word) const { return std::regex_search(text, std::regex("\\b" + word)); }
+};
+
+PrintedPlan plan_of(std::vector<std::string> scene) {
+    scene.insert(scene.begin(), "simulate");
+    scene.emplace_back("--plan");
+    const Ended ended = eddy(scene);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    PrintedPlan plan{ended.out, {}, {}};
+    const std::regex row(R"(^(.{16}) (.{22,}?) +(\d+) +(\d+) +(\d+) +(\d+))");
+    for (const std::string& line : lines_of(ended.out)) {
+        std::smatch m;
+        if (!std::regex_search(line, m, row)) continue;
+        auto& into = line.rfind("total", 0) == 0 ? plan.total : plan.sums;
+        for (std::size_t i = 0; i < 4; ++i) into[i] += std::stol(m[3 + i]);
+    }
+    return plan;
+}
+
+const std::string kTiny = "tank.cells=[16,16,16]";
+
+TEST(Plan, AddsUpToItsTotal) {
+    for (const std::string scene : {"jet", "stir", "rest", "bench", "added_mass"})
+        for (const std::string preset : {"fast", "precise", "yang2009"}) {
+            if (preset != "yang2009" && scene != "jet" && scene != "rest") continue;
+            const PrintedPlan plan =
+                plan_of({scene, "--set", kTiny, "--set", "solver.preset=\"" + preset + "\""});
+            EXPECT_GT(plan.total[0], 10) << plan.text;
+            EXPECT_EQ(plan.sums, plan.total) << scene << " " << preset << "\n" << plan.text;
+        }
+}
+
+TEST(Plan, WithoutSmokeHasNoSmokePassAndNoScalarTexture) {
+    const PrintedPlan rest = plan_of({"rest", "--set", kTiny}), jet = plan_of({"jet", "--set", kTiny});
+    EXPECT_TRUE(jet.names("advect smoke") && jet.names("R32F")) << jet.text;
+    EXPECT_FALSE(rest.names("smoke")) << rest.text;
+    EXPECT_FALSE(rest.names("R32F")) << rest.text;
+}
+
+TEST(Plan, WithoutABodyHasNoFractionsAndNoForce) {
+    const ScratchFolder folder;
+    const std::string scene = folder.write("empty.toml", "[tank]\ncells = [16, 16, 16]\n");
+    const PrintedPlan empty = plan_of({scene}), rest = plan_of({"rest", "--set", kTiny});
+    for (const std::string word : {"fractions", "traction", "voxelise", "force", "follow", "ax"}) {
+        EXPECT_TRUE(rest.names(word)) << word << " is not how the plan calls it:\n" << rest.text;
+        EXPECT_FALSE(empty.names(word)) << word << "\n" << empty.text;
+    }
+}
+
+TEST(Plan, OfABodyThatIsNotMeasuredHasNoForce) {
+    const PrintedPlan plan = plan_of(
+        {"rest", "--set", kTiny, "--set", "body.ball.force=false", "--set", "body.ball.torque=false"});
+    EXPECT_TRUE(plan.names("fractions")) << plan.text;
+    EXPECT_FALSE(plan.names("traction")) << plan.text;
+}
+
+}  // namespace
+}  // namespace eddy

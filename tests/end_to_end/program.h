@@ -1,0 +1,42 @@
+#pragma once
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/scratch_folder.h"
+
+namespace eddy {
+
+/// What a program left when it ended.
+struct Ended {
+    int status = 0;  ///< exit status, or 128 + signal
+    std::string out, err;
+};
+
+/// A child process, started without a shell; its output goes to files.
+class Program {
+  public:
+    /// arguments[0] is looked up in PATH unless it holds a slash.
+    explicit Program(std::vector<std::string> arguments);
+    ~Program();
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    void send(int signal) const;
+    Ended wait();
+
+  private:
+    ScratchFolder output_;
+    pid_t pid_ = 0;
+};
+
+/// Runs the eddy under test to its end.
+Ended eddy(std::vector<std::string> arguments);
+/// What Program takes to start the eddy under test.
+std::vector<std::string> eddy_command(std::vector<std::string> arguments);
+
+std::vector<std::string> lines_of(const std::string& text);
+std::vector<std::string> split(const std::string& text, char separator);
+
+}  // namespace eddy

@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <regex>
+
+#include "tests/end_to_end/program.h"
+
+namespace eddy {
+namespace {
+
+const std::string kTiny = "tank.cells=[16,16,16]";
+
+/// A NumPy file of little-endian 32-bit floats.
+struct Npy {
+    std::vector<std::size_t> shape;
+    std::vector<float> values;
+};
+
+Npy read_npy(const std::filesystem::path& file) {
+    const std::string bytes = read_all(file);
+    EXPECT_EQ(bytes.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8)) << file;
+    const auto byte = [&](std::size_t i) {
+        return static_cast<std::size_t>(static_cast<unsigned char>(bytes.at(i)));
+    };
+    const std::size_t start = 10 + byte(8) + 256 * byte(9);
+    const std::string header = bytes.substr(10, start - 10);
+    EXPECT_NE(header.find("'descr': '<f4'"), std::string::npos) << header;
+    EXPECT_NE(header.find("'fortran_order': False"), std::string::npos) << header;
+    Npy array;
+    std::smatch m;
+    EXPECT_TRUE(std::regex_search(header, m, std::regex(R"('shape': \(([^)]*)\))"))) << header;
+    for (const std::string& n : split(m[1], ','))
+        if (n.find_first_of("0123456789") != std::string::npos) array.shape.push_back(std::stoul(n));
+    array.values.resize((bytes.size() - start) / sizeof(float));
+    std::memcpy(array.values.data(), bytes.data() + start, array.values.size() * sizeof(float));
+    EXPECT_EQ(array.values.size(),
+              std::accumulate(array.shape.begin(), array.shape.end(), std::size_t{1}, std::multiplies<>()));
+    return array;
+}
+
+TEST(Simulate, OfStillAirWritesASeriesOfForcesThatAreExactlyZero) {
+    const ScratchFolder folder;
+    const std::string out = folder / "out";
+    const Ended ended = eddy({"simulate", "rest", "--set", kTiny, "--steps", "3", "--out", out});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.err, "");
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"out/", "out/series.csv", "out/summary.json"}));
+
+    const std::vector<std::string> lines = lines_of(read_all(out + "/series.csv"));
+    ASSERT_EQ(lines.size(), 4u);
+    EXPECT_EQ(lines[0],
+              "t_s,body,force_x_n,force_y_n,force_z_n,torque_x_nm,torque_y_nm,torque_z_nm,kinetic_energy_j,"
+              "divergence_max_1_s,pressure_residual,smoke_total,step_ms");
+    for (std::size_t row = 1; row < lines.size(); ++row) {
+        const std::vector<std::string> cells = split(lines[row], ',');
+        ASSERT_EQ(cells.size(), 13u) << lines[row];
+        EXPECT_NEAR(std::stod(cells[0]), 0.02 * static_cast<double>(row), 1e-9);
+        EXPECT_EQ(cells[1], "ball");
+        for (std::size_t column = 2; column < 12; ++column)
+            EXPECT_EQ(std::stod(cells[column]), 0.0) << lines[row];
+        EXPECT_GT(std::stod(cells[12]), 0.0);
+    }
+
+    const nlohmann::json summary = nlohmann::json::parse(read_all(out + "/summary.json"));
+    EXPECT_EQ(summary.at("title"), "Rest");
+    EXPECT_EQ(summary.at("steps"), 3);
+    EXPECT_NEAR(summary.at("simulated_s"), 0.06, 1e-12);
+    EXPECT_EQ(summary.at("bodies").at(0).at("last_force_n"), nlohmann::json({0.0, 0.0, 0.0}));
+    EXPECT_FALSE(summary.at("renderer").get<std::string>().empty());
+}
+
+TEST(Simulate, WritesTheFieldsTheSceneAsksFor) {
+    const ScratchFolder folder;
+    const std::string out = folder / "out";
+    const Ended ended =
+        eddy({"simulate", "jet", "--set", "tank.size_m=[0.16,0.2,0.24]", "--set", "tank.cells=[16,20,24]",
+              "--set", "outputs.fields=[\"velocity\",\"pressure\",\"smoke\"]", "--set",
+              "outputs.series=false", "--steps", "2", "--out", out});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"out/", "out/pressure.npy", "out/smoke.npy",
+                                                          "out/summary.json", "out/velocity.npy"}));
+    EXPECT_EQ(read_npy(out + "/velocity.npy").shape, (std::vector<std::size_t>{25, 21, 17, 3}));
+    EXPECT_EQ(read_npy(out + "/pressure.npy").shape, (std::vector<std::size_t>{24, 20, 16}));
+    const Npy smoke = read_npy(out + "/smoke.npy");
+    EXPECT_EQ(smoke.shape, (std::vector<std::size_t>{24, 20, 16}));
+
+    // The jet comes out at (0.02, 0.14, 0.08) m, with cells of 1 cm: the smoke's middle lies there.
+    double total = 0.0, x = 0.0, y = 0.0, z = 0.0;
+    for (std::size_t i = 0; i < smoke.values.size(); ++i) {
+        total += smoke.values[i];
+        x += smoke.values[i] * (static_cast<double>(i % 16) + 0.5);
+        y += smoke.values[i] * (static_cast<double>(i / 16 % 20) + 0.5);
+        z += smoke.values[i] * (static_cast<double>(i / 320) + 0.5);
+    }
+    EXPECT_NEAR(x / total, 2.0, 1.0);
+    EXPECT_NEAR(y / total, 14.0, 1.0);
+    EXPECT_NEAR(z / total, 8.0, 1.0);
+    const nlohmann::json summary = nlohmann::json::parse(read_all(out + "/summary.json"));
+    EXPECT_NEAR(summary.at("smoke_total").get<double>(), total * 1e-6, 1e-5 * total * 1e-6);
+}
+
+TEST(Simulate, WithoutABodyStillHasARowForEachStep) {
+    const ScratchFolder folder;
+    const std::string scene = folder.write("empty.toml", "[tank]\ncells = [16, 16, 16]\n");
+    const Ended ended = eddy({"simulate", scene, "--steps", "2", "--out", folder / "out"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const std::vector<std::string> lines = lines_of(read_all(folder / "out/series.csv"));
+    ASSERT_EQ(lines.size(), 3u);
+    EXPECT_EQ(split(lines[1], ',').at(1), "-");
+}
+
+TEST(Simulate, ReplacesAnEarlierResult) {
+    const ScratchFolder folder;
+    const std::string out = folder / "out";
+    for (const std::string steps : {"3", "2"})
+        ASSERT_EQ(eddy({"simulate", "rest", "--set", kTiny, "--steps", steps, "--out", out}).status, 0);
+    EXPECT_EQ(lines_of(read_all(out + "/series.csv")).size(), 3u);
+    EXPECT_EQ(nlohmann::json::parse(read_all(out + "/summary.json")).at("steps"), 2);
+}
+
+}  // namespace
+}  // namespace eddy

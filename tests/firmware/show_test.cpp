@@ -1,0 +1,149 @@
+#include "firmware/show.h"
+
+#include "tests/gles/gl_fixture.h"
+
+namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Seconds kDt{0.02};
+
+Scene scene_with(const std::string& more, double gain = 20000.0) {
+    return read_scene(
+               "[tank]\ncells = [16, 16, 16]\n" + more +
+                   "[[body]]\nname = \"ball\"\nradius_m = 0.025\nmotion = \"held\"\n[haptics]\ngain = " +
+                   std::to_string(gain) + "\n",
+               "test.toml")
+        .scene;
+}
+
+/// The fluid side alone; the test is the haptic loop.
+class ShowTest : public gles::GlTest {
+  protected:
+    HapticExchange exchange;
+    std::uint64_t ticks = 0;
+
+    void hand_at(const glm::dvec3& position, Instant time) {
+        exchange.pose.publish({position, glm::dvec3(0.0), ++ticks, time, 0});
+    }
+};
+
+TEST_F(ShowTest, ForceAnswersThePoseItWasComputedFor) {
+    Show show(gpu, scene_with(""), exchange);
+    EXPECT_EQ(exchange.fluid.newest().sequence, 0u);
+    for (int n = 1; n <= 5; ++n) {
+        const Instant time = n * 20ms - 3ms;
+        hand_at({0.08 + 0.001 * n * n, 0.08, 0.08}, time);
+        show.update(n * 20ms, kDt, false);
+        show.publish(true);
+        const FluidSnapshot& answer = exchange.fluid.newest();
+        EXPECT_EQ(answer.sequence, static_cast<std::uint64_t>(n));
+        EXPECT_EQ(answer.computed_for, time);
+        EXPECT_NEAR(answer.fluid_period.count(), 0.02, 1e-12);
+    }
+}
+
+TEST_F(ShowTest, AnswersComeOldestFirstEachForItsOwnPose) {
+    Show show(gpu, scene_with(""), exchange);
+    for (int n = 1; n <= 2; ++n) {
+        hand_at({0.08, 0.08, 0.08}, n * 7ms);
+        show.update(n * 20ms, kDt, false);
+    }
+    gles::finish();
+    show.publish(true);
+    show.publish(true);
+    EXPECT_EQ(exchange.fluid.newest().sequence, 2u);
+    EXPECT_EQ(exchange.fluid.newest().computed_for, 14ms);
+}
+
+TEST_F(ShowTest, FirstPoseIsAPlaceAndNotAMovement) {
+    Show show(gpu, scene_with(""), exchange);
+    for (int n = 1; n <= 3; ++n) {  // far from where the scene had put the ball, but at rest
+        hand_at({0.05, 0.1, 0.06}, n * 20ms);
+        show.update(n * 20ms, kDt, false);
+        show.publish(true);
+        EXPECT_EQ(exchange.fluid.newest().force_n, glm::dvec3(0.0)) << "step " << n;
+    }
+    EXPECT_EQ(show.figures().most_force_n, 0.0);
+    EXPECT_EQ(show.bodies().at(0).centre_m, glm::dvec3(0.05, 0.1, 0.06));
+}
+
+TEST_F(ShowTest, FluidResistsAHandThatSetsOff) {
+    Show show(gpu, scene_with(""), exchange);
+    hand_at({0.08, 0.08, 0.08}, 20ms);
+    show.update(20ms, kDt, false);
+    show.publish(true);
+    hand_at({0.084, 0.08, 0.08}, 40ms);  // 0.2 m/s at once
+    show.update(40ms, kDt, false);
+    show.publish(true);
+    EXPECT_NEAR(show.bodies().at(0).velocity_m_s.x, 0.2, 1e-9);
+    const glm::dvec3 force = exchange.fluid.newest().force_n;
+    // Half the air it displaces, set moving in one step: 0.5 * 1.2 kg/m3 * 4/3 pi (25 mm)3 * 0.2 m/s / 0.02 s
+    // = 0.39 mN. The walls of the small tank add to it.
+    EXPECT_LT(force.x, -0.3e-3);
+    EXPECT_GT(force.x, -0.8e-3);
+    EXPECT_LT(std::abs(force.y), 0.02e-3);
+}
+
+TEST_F(ShowTest, FiguresRangeOverTheForceAfterGain) {
+    for (const double gain : {1.0, 20000.0}) {
+        HapticExchange own;
+        Show show(gpu, scene_with("", gain), own);
+        double least = 1e9, most = 0.0;
+        for (int n = 1; n <= 6; ++n) {
+            own.pose.publish({{0.07 + 0.0005 * n * n, 0.08, 0.08},
+                              glm::dvec3(0.0),
+                              static_cast<std::uint64_t>(n),
+                              n * 20ms,
+                              0});
+            show.update(n * 20ms, kDt, n == 3);
+            show.publish(true);
+            const double felt = gain * glm::length(own.fluid.newest().force_n);
+            least = std::min(least, felt);
+            most = std::max(most, felt);
+        }
+        EXPECT_GT(most, 0.0);
+        EXPECT_DOUBLE_EQ(show.figures().least_force_n, least);
+        EXPECT_DOUBLE_EQ(show.figures().most_force_n, most);
+        EXPECT_GT(show.figures().divergence_before_1_s, show.figures().divergence_after_1_s);
+        EXPECT_EQ(show.figures().steps, 6);
+    }
+}
+
+TEST_F(ShowTest, WithoutAHandNothingIsPublished) {
+    const Scene scene = read_scene("[tank]\ncells = [16, 16, 16]\n", "test.toml").scene;
+    Show show(gpu, scene, exchange);
+    for (int n = 1; n <= 3; ++n) {
+        show.update(n * 20ms, kDt, true);
+        show.publish(true);
+    }
+    EXPECT_EQ(exchange.fluid.newest().sequence, 0u);
+    EXPECT_EQ(show.figures().steps, 3);
+}
+
+TEST(HapticOrders, KeepTheBallInTheTankAndCarryTheScenesGain) {
+    const Scene scene = scene_with("");
+    const HapticOrders orders = orders_for(scene);
+    EXPECT_TRUE(orders.enabled);
+    EXPECT_EQ(orders.gain, 20000.0);
+    EXPECT_EQ(orders.tank_from_device.centre_m, scene.haptics.centre_m);
+    EXPECT_EQ(orders.tank_from_device.scale, scene.haptics.workspace_scale);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(orders.lowest_m[axis], 0.025 + 1.5 * 0.01, 1e-12);
+        EXPECT_NEAR(orders.highest_m[axis], 0.16 - 0.025 - 1.5 * 0.01, 1e-12);
+    }
+}
+
+TEST(HapticOrders, HoldABallThatFillsTheTankInItsMiddle) {
+    const Scene scene =
+        read_scene("[tank]\ncells = [16, 16, 16]\n[[body]]\nradius_m = 0.09\nmotion = \"held\"\n",
+                   "test.toml")
+            .scene;
+    const HapticOrders orders = orders_for(scene);
+    EXPECT_EQ(orders.lowest_m, orders.highest_m);
+    EXPECT_EQ(orders.lowest_m, 0.5 * scene.tank.size_m);
+}
+
+}  // namespace
+}  // namespace eddy
