@@ -11,8 +11,8 @@ namespace {
 
 std::unique_ptr<emulated::RecordedMotion> read_path(const std::filesystem::path& csv) {
     try {
-        return std::make_unique<emulated::RecordedMotion>(read_text_file(csv), csv.string(), emulated::AxisMap("x,y,z"),
-                                                          emulated::AtEnd::Hold);
+        return std::make_unique<emulated::RecordedMotion>(read_text_file(csv), csv.string(),
+                                                          emulated::AxisMap("x,y,z"), emulated::AtEnd::Hold);
     } catch (const std::runtime_error& e) {
         throw InputError(e.what());
     }
@@ -34,7 +34,8 @@ glm::dvec3 BodyMotions::position_m(std::size_t i, double time_s) const {
     const double t = std::max(0.0, time_s - body.start_s);
     glm::dvec3 x = body.centre_m + body.velocity_m_s * t + 0.5 * t * t * body.acceleration_m_s2;
     if (body.oscillation) {
-        const double phase = 2.0 * std::numbers::pi * body.oscillation->frequency_hz * t + body.oscillation->phase_rad;
+        const double phase =
+            2.0 * std::numbers::pi * body.oscillation->frequency_hz * t + body.oscillation->phase_rad;
         x += body.oscillation->amplitude_m * std::sin(phase);
     }
     if (paths_[i]) x += paths_[i]->position_m(Seconds(t));
@@ -49,7 +50,8 @@ std::vector<gles::BodyState> BodyMotions::at(double time_s, double dt_s) const {
         if (bodies_[i].motion != BodyMotion::Prescribed || time_s <= bodies_[i].start_s) continue;
         states[i].spin_rad_s = bodies_[i].spin_rad_s;
         const double angle = glm::length(bodies_[i].spin_rad_s) * (time_s - bodies_[i].start_s);
-        if (angle != 0.0) states[i].orientation = glm::angleAxis(angle, glm::normalize(bodies_[i].spin_rad_s));
+        if (angle != 0.0)
+            states[i].orientation = glm::angleAxis(angle, glm::normalize(bodies_[i].spin_rad_s));
     }
     return states;
 }

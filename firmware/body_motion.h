@@ -9,15 +9,15 @@
 
 namespace eddy {
 
-/// Where the bodies of a scene are at a time. Held bodies are wherever the hand was last put; without a hand they stay
-/// at their centre_m.
+/// Where the bodies of a scene are at a time. Held bodies are wherever the hand was last put; without a hand
+/// they stay at their centre_m.
 class BodyMotions {
   public:
     /// Reads the paths; throws InputError "file:line: ..." if one is wrong.
     explicit BodyMotions(const Scene& scene);
 
-    /// States at the end of a step from time_s - dt_s to time_s. Velocities are those of the displacement during the
-    /// step, so that what a body pushes away agrees with where it goes.
+    /// States at the end of a step from time_s - dt_s to time_s. Velocities are those of the displacement
+    /// during the step, so that what a body pushes away agrees with where it goes.
     std::vector<gles::BodyState> at(double time_s, double dt_s) const;
 
     /// Index of the body in the visitor's hand.

@@ -17,7 +17,8 @@ void check_writable(std::string_view option, const std::filesystem::path& folder
     if (!std::filesystem::is_directory(folder, error))
         throw InputError(fmt::format("{}: there is no folder {}", option, folder.string()));
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        throw InputError(fmt::format("{}: {} cannot be written to: {}", option, folder.string(), std::strerror(errno)));
+        throw InputError(
+            fmt::format("{}: {} cannot be written to: {}", option, folder.string(), std::strerror(errno)));
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace eddy {
 
-// Where the command line wants its results. Asked before any work begins, so that a wrong path costs a second and not
-// an afternoon. Both throw InputError with the option's name, the path and the system's reason.
+// Where the command line wants its results. Asked before any work begins, so that a wrong path costs a second
+// and not an afternoon. Both throw InputError with the option's name, the path and the system's reason.
 
 /// Makes the folder and those above it; it can be written when this returns.
 void prepare_folder(std::string_view option, const std::filesystem::path& folder);

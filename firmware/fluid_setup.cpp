@@ -6,12 +6,16 @@ namespace {
 gles::SolverSetup solver_setup(const Scene::Solver& solver) {
     gles::SolverSetup s;
     switch (solver.preset) {
-        case SolverPreset::Fast: s.cycles = 2; break;
+        case SolverPreset::Fast:
+            s.cycles = 2;
+            break;
         case SolverPreset::Precise:
             s.advection = gles::Advection::MacCormack;
             s.cycles = 3;
             break;
-        case SolverPreset::Yang2009: s.method = gles::Method::Yang2009; break;
+        case SolverPreset::Yang2009:
+            s.method = gles::Method::Yang2009;
+            break;
     }
     if (solver.advection)
         s.advection = *solver.advection == AdvectionScheme::MacCormack ? gles::Advection::MacCormack

@@ -66,22 +66,24 @@ std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& fo
                             mm_per_n * p.fz, mm_per_n * p.fy);
     const std::filesystem::path folder = force_csv.parent_path(), script = folder / "motion.gnuplot",
                                 picture = folder / "motion.png";
-    replace_text_file(script, fmt::format("set terminal pngcairo size 1000,800\n"
-                                          "set output '{}'\n"
-                                          "$path << EOD\n{}EOD\n"
-                                          "set title 'Hand (blue) and force on it (red; the longest arrow is {:.2f} N)'\n"
-                                          "set xlabel 'x right [mm]'\nset ylabel 'z to the visitor [mm]'\n"
-                                          "set zlabel 'y up [mm]' rotate parallel\n"
-                                          "set view 70, 25\nset xyplane at -60\nset grid\nset key off\n"
-                                          "set xrange [-80:80]\nset yrange [-80:80]\nset zrange [-60:60]\n"
-                                          "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"
-                                          "      $path using 1:2:3 with points pt 7 ps 0.5 lc rgb '#2050c0'\n",
-                                          picture.string(), data, strongest));
+    replace_text_file(
+        script, fmt::format("set terminal pngcairo size 1000,800\n"
+                            "set output '{}'\n"
+                            "$path << EOD\n{}EOD\n"
+                            "set title 'Hand (blue) and force on it (red; the longest arrow is {:.2f} N)'\n"
+                            "set xlabel 'x right [mm]'\nset ylabel 'z to the visitor [mm]'\n"
+                            "set zlabel 'y up [mm]' rotate parallel\n"
+                            "set view 70, 25\nset xyplane at -60\nset grid\nset key off\n"
+                            "set xrange [-80:80]\nset yrange [-80:80]\nset zrange [-60:60]\n"
+                            "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"
+                            "      $path using 1:2:3 with points pt 7 ps 0.5 lc rgb '#2050c0'\n",
+                            picture.string(), data, strongest));
     if (points.empty()) return std::nullopt;
     if (const int status = run_gnuplot(script); status != 0) {
-        fmt::print(stderr, "no plot of the motion: {}; the script is {}\n",
-                   status < 0 || status == 127 ? "gnuplot is not installed (package gnuplot-nox)" : "gnuplot failed",
-                   script.string());
+        fmt::print(
+            stderr, "no plot of the motion: {}; the script is {}\n",
+            status < 0 || status == 127 ? "gnuplot is not installed (package gnuplot-nox)" : "gnuplot failed",
+            script.string());
         return std::nullopt;
     }
     return picture;

@@ -15,7 +15,8 @@ std::string describe_machine() {
             model = line.substr(line.find(':') + 2);
             break;
         }
-    const double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    const double bytes =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     return fmt::format("{}, {} cores, {:.0f} GB", model, std::thread::hardware_concurrency(), bytes / 1e9);
 }
 

@@ -1,5 +1,5 @@
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <charconv>
 
@@ -62,16 +62,22 @@ struct CommandLine {
         app.set_version_flag("--version", std::string("eddy ") + EDDY_VERSION);
         app.require_subcommand(1);
         app.failure_message([](const CLI::App*, const CLI::Error& e) {
-            return fmt::format("eddy: {}; eddy --help and eddy VERB --help say what can be written\n", e.what());
+            return fmt::format("eddy: {}; eddy --help and eddy VERB --help say what can be written\n",
+                               e.what());
         });
-        app.footer("eddy VERB --help says more about each. Exit status: 0 done, 1 failed, 2 wrong usage or bad input.");
+        app.footer(
+            "eddy VERB --help says more about each. Exit status: 0 done, 1 failed, 2 wrong usage or bad "
+            "input.");
         add_run();
         add_simulate();
         add_bench();
-        auto* check = app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
+        auto* check =
+            app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
         check->add_option("FILE", check_file, "the file to check")->required();
-        auto* print = app.add_subcommand("print-config", "Show the merged exhibit settings, or all keys of a scene");
-        print->add_option("SCENE", print_scene, "a scene (shipped name or file); without: the exhibit's settings");
+        auto* print =
+            app.add_subcommand("print-config", "Show the merged exhibit settings, or all keys of a scene");
+        print->add_option("SCENE", print_scene,
+                          "a scene (shipped name or file); without: the exhibit's settings");
         add_set(*print, print_set);
         print->add_flag("--origin", print_origin, "say for each value where it was written");
     }
@@ -84,42 +90,52 @@ struct CommandLine {
     }
 
     void add_run() {
-        auto* verb = app.add_subcommand(
-            "run", "The exhibit: fluid, picture and force. Without options: the real screen and Falcon if there are any,\n"
-                   "else no screen and an emulated hand that moves like a person's");
+        auto* verb = app.add_subcommand("run",
+                                        "The exhibit: fluid, picture and force. Without options: the real "
+                                        "screen and Falcon if there are any,\n"
+                                        "else no screen and an emulated hand that moves like a person's");
         verb->add_option("--scene", run.scene, "shipped scene or file (print-config lists all keys)");
         add_set(*verb, run.set);
-        choose(*verb->add_option("--display", run.display, "where the picture goes"), words_of(DisplayChoice{}));
+        choose(*verb->add_option("--display", run.display, "where the picture goes"),
+               words_of(DisplayChoice{}));
         choose(*verb->add_option("--haptics", run.haptics, "what the hand holds"), words_of(HapticsChoice{}));
-        verb->add_option("--motion", run.motion, "recorded hand for the emulated Falcon: CSV t_s,x_m,y_m,z_m");
+        verb->add_option("--motion", run.motion,
+                         "recorded hand for the emulated Falcon: CSV t_s,x_m,y_m,z_m");
         verb->add_option("--motion-axes", run.motion_axes,
                          "device x right, y up, z to the person, in the recording's axes (for z up: x,z,-y)")
             ->capture_default_str();
         verb->add_option("--seed", run.seed, "of the emulated person")->capture_default_str();
-        verb->add_option("--seconds", run.seconds, "stop after this long")->check(number_from(kShortestS, kLongestS));
+        verb->add_option("--seconds", run.seconds, "stop after this long")
+            ->check(number_from(kShortestS, kLongestS));
         verb->add_option("--record", run.record, "keep pictures, force.csv and motion.png in this folder");
         verb->add_option("--fps", run.frames_per_s, "pictures recorded per second")
             ->check(number_from(0.01, 1000.0))
             ->capture_default_str();
-        choose(*verb->add_option("--clock", run.clock, "stepped: virtual time, the same run bit for bit each time"),
+        choose(*verb->add_option("--clock", run.clock,
+                                 "stepped: virtual time, the same run bit for bit each time"),
                std::span<const Word<ClockChoice>>(kClockChoices));
         verb->add_option("--run-dir", run.run_dir, "where status.json goes");
     }
 
     void add_simulate() {
-        auto* verb = app.add_subcommand("simulate", "Run any scene without display or hand; write series.csv, summary.json");
+        auto* verb = app.add_subcommand(
+            "simulate", "Run any scene without display or hand; write series.csv, summary.json");
         verb->add_option("SCENE", simulate.scene, "shipped scene or file")->required();
         add_set(*verb, simulate.set);
-        auto* seconds = verb->add_option("--seconds", simulate.seconds, "simulated time")->check(number_from(1e-9, kLongestS));
+        auto* seconds = verb->add_option("--seconds", simulate.seconds, "simulated time")
+                            ->check(number_from(1e-9, kLongestS));
         verb->add_option("--steps", simulate.steps, "number of steps instead")
             ->check(CLI::PositiveNumber)
             ->excludes(seconds);
-        verb->add_option("--out", simulate.out, "folder for series.csv, summary.json and the fields the scene asks for");
-        verb->add_flag("--plan", simulate.plan, "print the passes and textures this scene calls for, and stop");
+        verb->add_option("--out", simulate.out,
+                         "folder for series.csv, summary.json and the fields the scene asks for");
+        verb->add_flag("--plan", simulate.plan,
+                       "print the passes and textures this scene calls for, and stop");
     }
 
     void add_bench() {
-        auto* verb = app.add_subcommand("bench", "Time per stage, for each preset and grid, beside the 2009 method");
+        auto* verb =
+            app.add_subcommand("bench", "Time per stage, for each preset and grid, beside the 2009 method");
         verb->add_option("--scene", bench.scene, "shipped scene or file")->capture_default_str();
         add_set(*verb, bench.set);
         verb->add_option("--grid", bench.grids, "cells along x, as 25,32,48")

@@ -9,12 +9,15 @@
 
 namespace eddy {
 
-void write_npy(const std::filesystem::path& file, std::span<const float> values, const std::vector<int>& shape) {
+void write_npy(const std::filesystem::path& file, std::span<const float> values,
+               const std::vector<int>& shape) {
     static_assert(std::endian::native == std::endian::little, "'<f4' below says little-endian");
     std::string dimensions;
     for (const int n : shape) dimensions += fmt::format("{}, ", n);
-    std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}), }}", dimensions);
-    // Magic, version, header length, header: padded with spaces so that the data start at a multiple of 64 bytes.
+    std::string header =
+        fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}), }}", dimensions);
+    // Magic, version, header length, header: padded with spaces so that the data start at a multiple of 64
+    // bytes.
     constexpr std::size_t kBefore = 10;
     header.append(63 - (kBefore + header.size()) % 64, ' ');
     header += '\n';

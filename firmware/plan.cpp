@@ -32,8 +32,8 @@ std::string plan_of(gles::Gpu& gpu, const gles::FluidSetup& setup, const BodyMot
     }
 
     // The same pass several times in a row (sweeps, boxes) is one line with a count; the sums are over all.
-    std::string text = fmt::format("{:<16} {:<22} {:>5} {:>11} {:>12} {:>13}  {:<34} {}\n", "stage", "pass", "times",
-                                   "texels", "bytes", "fetches", "reads", "writes");
+    std::string text = fmt::format("{:<16} {:<22} {:>5} {:>11} {:>12} {:>13}  {:<34} {}\n", "stage", "pass",
+                                   "times", "texels", "bytes", "fetches", "reads", "writes");
     std::int64_t texels = 0, bytes = 0, fetches = 0;
     struct Line {
         gles::PassRecord first;
@@ -57,10 +57,12 @@ std::string plan_of(gles::Gpu& gpu, const gles::FluidSetup& setup, const BodyMot
     for (const Line& line : lines) {
         std::string writes = describe(*line.first.outputs[0]);
         if (line.first.outputs.size() > 1) writes += fmt::format(" (x{})", line.first.outputs.size());
-        text += fmt::format("{:<16} {:<22} {:>5} {:>11} {:>12} {:>13}  {:<34} {}\n", line.first.stage, line.first.pass,
-                            line.times, line.texels, line.bytes, line.fetches, joined(line.first.inputs), writes);
+        text += fmt::format("{:<16} {:<22} {:>5} {:>11} {:>12} {:>13}  {:<34} {}\n", line.first.stage,
+                            line.first.pass, line.times, line.texels, line.bytes, line.fetches,
+                            joined(line.first.inputs), writes);
     }
-    text += fmt::format("{:<16} {:<22} {:>5} {:>11} {:>12} {:>13}\n", "total", "", records.size(), texels, bytes, fetches);
+    text += fmt::format("{:<16} {:<22} {:>5} {:>11} {:>12} {:>13}\n", "total", "", records.size(), texels,
+                        bytes, fetches);
     text += fmt::format("\ntextures: {}, {:.1f} MB\n", gpu.textures().made(),
                         static_cast<double>(gpu.textures().bytes()) / 1e6);
     return text;

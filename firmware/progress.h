@@ -4,8 +4,8 @@
 
 namespace eddy {
 
-/// One line on standard error that says how far long work has come: rewritten in place on a terminal, a line every ten
-/// seconds elsewhere. Silent for work shorter than a second.
+/// One line on standard error that says how far long work has come: rewritten in place on a terminal, a line
+/// every ten seconds elsewhere. Silent for work shorter than a second.
 class Progress {
   public:
     explicit Progress(std::string what) : what_(std::move(what)) {}

@@ -18,7 +18,8 @@ Recorder::Recorder(std::filesystem::path folder) : folder_(std::move(folder)) {
     if (!force_)
         throw std::runtime_error(
             fmt::format("{}: cannot be created: {}", (folder_ / "force.csv").string(), std::strerror(errno)));
-    force_ << "t_s,x_m,y_m,z_m,raw_x_n,raw_y_n,raw_z_n,filtered_x_n,filtered_y_n,filtered_z_n,sent_x_n,sent_y_n,sent_z_n,"
+    force_ << "t_s,x_m,y_m,z_m,raw_x_n,raw_y_n,raw_z_n,filtered_x_n,filtered_y_n,filtered_z_n,sent_x_n,sent_"
+              "y_n,sent_z_n,"
               "fluid_age_s,gate\n";
 }
 
@@ -27,9 +28,10 @@ void Recorder::add(std::span<const TickRecord> ticks) {
         const glm::dvec3 &x = tick.position_m, &raw = tick.raw_force_n, &filtered = tick.filtered_force_n,
                          &sent = tick.sent_force_n;
         force_ << fmt::format(
-            "{:.6f},{:.7f},{:.7f},{:.7f},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6f},{}\n",
-            Seconds(tick.t).count(), x.x, x.y, x.z, raw.x, raw.y, raw.z, filtered.x, filtered.y, filtered.z, sent.x,
-            sent.y, sent.z, Seconds(tick.fluid_age).count(), static_cast<int>(tick.reason));
+            "{:.6f},{:.7f},{:.7f},{:.7f},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:."
+            "6f},{}\n",
+            Seconds(tick.t).count(), x.x, x.y, x.z, raw.x, raw.y, raw.z, filtered.x, filtered.y, filtered.z,
+            sent.x, sent.y, sent.z, Seconds(tick.fluid_age).count(), static_cast<int>(tick.reason));
     }
 }
 
@@ -40,7 +42,8 @@ void Recorder::add(const gles::Renderer& renderer, int width_px, int height_px) 
 void Recorder::finish() {
     force_.close();
     if (!force_)
-        throw std::runtime_error(fmt::format("{}: the disk did not take all of it", (folder_ / "force.csv").string()));
+        throw std::runtime_error(
+            fmt::format("{}: the disk did not take all of it", (folder_ / "force.csv").string()));
     plot_forces(folder_ / "force.csv");
 }
 

@@ -8,7 +8,8 @@
 
 namespace eddy {
 
-/// What `--record DIR` leaves behind: frame_0000.png ..., force.csv (every tick of the haptic loop), motion.png.
+/// What `--record DIR` leaves behind: frame_0000.png ..., force.csv (every tick of the haptic loop),
+/// motion.png.
 class Recorder {
   public:
     /// Makes the folder. Throws std::runtime_error if that or force.csv fails.

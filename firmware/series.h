@@ -7,8 +7,9 @@
 
 namespace eddy {
 
-/// series.csv: for each step, one row per body (or one with body "-" when the scene has none). The file appears under
-/// its name only when it is complete. Force and torque are ON the body BY the fluid, Tank frame.
+/// series.csv: for each step, one row per body (or one with body "-" when the scene has none). The file
+/// appears under its name only when it is complete. Force and torque are ON the body BY the fluid, Tank
+/// frame.
 class Series {
   public:
     /// Throws std::runtime_error if the file cannot be written.

@@ -46,8 +46,8 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     if (const auto held = motions_.held()) {
         gles::BodyState& body = states_[*held];
         if (pose.sequence > 0) body.centre_m = pose.position_m;
-        // Of the displacement, not of the handle: what the body pushes away must agree with where it goes. The first
-        // pose is where the hand happens to be, not a movement.
+        // Of the displacement, not of the handle: what the body pushes away must agree with where it goes.
+        // The first pose is where the hand happens to be, not a movement.
         if (figures_.steps > 0) body.velocity_m_s = (body.centre_m - before[*held].centre_m) / dt.count();
     }
     const double interval = figures_.steps > 0 ? Seconds(now - last_).count() : dt.count();
@@ -71,8 +71,8 @@ void Show::publish(bool wait) {
         const auto held = motions_.held();
         if (!held) continue;
         const gles::Load& load = result->loads[*held];
-        exchange_.fluid.publish({load.force_n, load.torque_nm, static_cast<std::uint64_t>(result->step), computed_for,
-                                 Seconds(figures_.fluid_period_s)});
+        exchange_.fluid.publish({load.force_n, load.torque_nm, static_cast<std::uint64_t>(result->step),
+                                 computed_for, Seconds(figures_.fluid_period_s)});
         const double felt = glm::length(load.force_n) * scene_.haptics.gain;
         figures_.least_force_n = result->step == 1 ? felt : std::min(figures_.least_force_n, felt);
         figures_.most_force_n = std::max(figures_.most_force_n, felt);

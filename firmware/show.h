@@ -12,14 +12,14 @@ namespace eddy {
 /// Ranges over the run, for the summary and the status page.
 struct ShowFigures {
     long steps = 0;
-    double fluid_period_s = 0.0;           ///< smoothed time between fluid updates
+    double fluid_period_s = 0.0;                     ///< smoothed time between fluid updates
     double least_force_n = 0.0, most_force_n = 0.0;  ///< of |raw force| on the hand, after gain
-    double divergence_before_1_s = 0.0;    ///< of the last step that was diagnosed
+    double divergence_before_1_s = 0.0;              ///< of the last step that was diagnosed
     double divergence_after_1_s = 0.0;
 };
 
-/// The fluid side of the exhibit: takes the newest pose of the hand, moves the fluid on, gives the force back. GL thread
-/// only; talks to the haptic loop through the exchange alone.
+/// The fluid side of the exhibit: takes the newest pose of the hand, moves the fluid on, gives the force
+/// back. GL thread only; talks to the haptic loop through the exchange alone.
 class Show {
   public:
     Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange);
@@ -45,7 +45,8 @@ class Show {
     ShowFigures figures_;
 };
 
-/// What the haptic loop is told for this scene: where the hand's workspace lies, how far the body may go, the gain.
+/// What the haptic loop is told for this scene: where the hand's workspace lies, how far the body may go, the
+/// gain.
 HapticOrders orders_for(const Scene& scene);
 
 }  // namespace eddy

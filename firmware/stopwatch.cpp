@@ -52,6 +52,8 @@ Stopwatch::Stopwatch(gles::Gpu& gpu) : gpu_(gpu) {
     });
 }
 
-Stopwatch::~Stopwatch() { gpu_.watch_stages({}); }
+Stopwatch::~Stopwatch() {
+    gpu_.watch_stages({});
+}
 
 }  // namespace eddy

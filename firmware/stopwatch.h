@@ -8,8 +8,8 @@
 
 namespace eddy {
 
-/// Times in ms of repeated work: processor time of the whole process (what a software rasteriser costs, however busy the
-/// machine is) and wall time.
+/// Times in ms of repeated work: processor time of the whole process (what a software rasteriser costs,
+/// however busy the machine is) and wall time.
 struct Timings {
     std::vector<double> cpu_ms, wall_ms;
     bool empty() const { return wall_ms.empty(); }
@@ -20,8 +20,8 @@ double median(std::vector<double> values);
 /// The least value that 95 % of them do not exceed; 0 of none.
 double percentile_95(std::vector<double> values);
 
-/// Times stages of a step while it is on: waits for the GPU at each stage's begin and end, so that a stage is charged
-/// with its own work and nothing else. That waiting costs; time whole steps without it.
+/// Times stages of a step while it is on: waits for the GPU at each stage's begin and end, so that a stage is
+/// charged with its own work and nothing else. That waiting costs; time whole steps without it.
 class Stopwatch {
   public:
     explicit Stopwatch(gles::Gpu& gpu);

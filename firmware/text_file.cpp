@@ -16,8 +16,8 @@ std::string read_text_file(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream text;
     if (!in || std::filesystem::is_directory(file) || !(text << in.rdbuf()))
-        throw std::runtime_error(fmt::format("{}: cannot be read: {}", file.string(),
-                                             std::strerror(errno ? errno : EISDIR)));
+        throw std::runtime_error(
+            fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno ? errno : EISDIR)));
     return text.str();
 }
 
@@ -27,7 +27,8 @@ void replace_text_file(const std::filesystem::path& file, std::string_view text)
     const auto fail = [&](const char* what) {
         const int reason = errno;
         ::unlink(beside.c_str());
-        throw std::runtime_error(fmt::format("{}: cannot be {}: {}", file.string(), what, std::strerror(reason)));
+        throw std::runtime_error(
+            fmt::format("{}: cannot be {}: {}", file.string(), what, std::strerror(reason)));
     };
     const int out = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (out < 0) fail("created");
@@ -48,7 +49,8 @@ void replace_text_file(const std::filesystem::path& file, std::string_view text)
 void make_folder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error) throw std::runtime_error(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+    if (error)
+        throw std::runtime_error(fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
 }
 
 }  // namespace eddy

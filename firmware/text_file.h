@@ -8,8 +8,9 @@ namespace eddy {
 /// The whole file. Throws std::runtime_error naming the file and the system's reason.
 std::string read_text_file(const std::filesystem::path& file);
 
-/// Replaces the file in one step: written beside it, flushed to the disk, renamed over it. A reader, or a power cut,
-/// finds the old text or the new one. Throws std::runtime_error; nothing half-written stays behind.
+/// Replaces the file in one step: written beside it, flushed to the disk, renamed over it. A reader, or a
+/// power cut, finds the old text or the new one. Throws std::runtime_error; nothing half-written stays
+/// behind.
 void replace_text_file(const std::filesystem::path& file, std::string_view text);
 
 /// Makes the folder and those above it. Throws std::runtime_error naming it and the system's reason.

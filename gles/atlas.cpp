@@ -17,8 +17,8 @@ AtlasLayout AtlasLayout::tile(const glm::ivec3& size) {
 
 std::string AtlasLayout::declaration(const std::string& name) const {
     const glm::ivec2 t = texels();
-    return fmt::format("const Layout {} = Layout(ivec3({}, {}, {}), {}, vec2(1.0 / {}.0, 1.0 / {}.0));\n", name, size.x,
-                       size.y, size.z, tiles_x, t.x, t.y);
+    return fmt::format("const Layout {} = Layout(ivec3({}, {}, {}), {}, vec2(1.0 / {}.0, 1.0 / {}.0));\n",
+                       name, size.x, size.y, size.z, tiles_x, t.x, t.y);
 }
 
 }  // namespace eddy::gles

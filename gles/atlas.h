@@ -4,8 +4,9 @@
 
 namespace eddy::gles {
 
-/// How a 3D grid is laid out in a 2D texture: `size.z` slabs of `size.x` x `size.y` texels, side by side in rows of
-/// `tiles_x`. A texel's index (x, y, slab) is what shaders call a cell of that layout. The same in gles/atlas.glsl.
+/// How a 3D grid is laid out in a 2D texture: `size.z` slabs of `size.x` x `size.y` texels, side by side in
+/// rows of `tiles_x`. A texel's index (x, y, slab) is what shaders call a cell of that layout. The same in
+/// gles/atlas.glsl.
 struct AtlasLayout {
     glm::ivec3 size{0};  ///< texels in x and y of one slab, number of slabs
     int tiles_x = 1;     ///< slabs in one row
@@ -24,19 +25,21 @@ struct AtlasLayout {
     std::string declaration(const std::string& name) const;
 };
 
-/// The four ways a field of n = (nx, ny, nz) cells is stored. "4" means four consecutive z share one RGBA texel, so a
-/// slab holds four layers; the last slab may hold padding, which is finite but means nothing.
-struct Cells {   // one texel a cell
+/// The four ways a field of n = (nx, ny, nz) cells is stored. "4" means four consecutive z share one RGBA
+/// texel, so a slab holds four layers; the last slab may hold padding, which is finite but means nothing.
+struct Cells {  // one texel a cell
     static AtlasLayout layout(const glm::ivec3& n) { return AtlasLayout::tile(n); }
 };
-struct Faces {   // one texel for the three lower faces of a cell; one layer more each way for the upper walls
+struct Faces {  // one texel for the three lower faces of a cell; one layer more each way for the upper walls
     static AtlasLayout layout(const glm::ivec3& n) { return AtlasLayout::tile(n + 1); }
 };
 struct Cells4 {
     static AtlasLayout layout(const glm::ivec3& n) { return AtlasLayout::tile({n.x, n.y, (n.z + 3) / 4}); }
 };
 struct Faces4 {
-    static AtlasLayout layout(const glm::ivec3& n) { return AtlasLayout::tile({n.x + 1, n.y + 1, (n.z + 4) / 4}); }
+    static AtlasLayout layout(const glm::ivec3& n) {
+        return AtlasLayout::tile({n.x + 1, n.y + 1, (n.z + 4) / 4});
+    }
 };
 
 /// A half-open box of cells, lo <= c < hi.

@@ -67,18 +67,29 @@ Context::Context(const NativeDisplay& native) : egl_(std::make_unique<Egl>()) {
     Egl& egl = *egl_;
     egl.display = eglGetPlatformDisplay(native.platform, native.native_display, nullptr);
     if (egl.display == EGL_NO_DISPLAY)
-        throw GlError(egl_failure("eglGetPlatformDisplay") + "; is a GL driver installed (libegl1, libgl1-mesa-dri)?");
+        throw GlError(egl_failure("eglGetPlatformDisplay") +
+                      "; is a GL driver installed (libegl1, libgl1-mesa-dri)?");
     if (!eglInitialize(egl.display, nullptr, nullptr))
-        throw GlError(egl_failure("eglInitialize") + "; is a GL driver installed (libegl1, libgl1-mesa-dri)?");
+        throw GlError(egl_failure("eglInitialize") +
+                      "; is a GL driver installed (libegl1, libgl1-mesa-dri)?");
     eglBindAPI(EGL_OPENGL_ES_API);
 
-    const EGLint wanted[] = {EGL_SURFACE_TYPE, native.native_window ? EGL_WINDOW_BIT : 0,
-                             EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT,
-                             EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_NONE};
+    const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                             native.native_window ? EGL_WINDOW_BIT : 0,
+                             EGL_RENDERABLE_TYPE,
+                             EGL_OPENGL_ES3_BIT,
+                             EGL_RED_SIZE,
+                             8,
+                             EGL_GREEN_SIZE,
+                             8,
+                             EGL_BLUE_SIZE,
+                             8,
+                             EGL_NONE};
     EGLConfig config = nullptr;
     EGLint found = 0;
     if (!eglChooseConfig(egl.display, wanted, &config, 1, &found) || found == 0) {
-        if (native.native_window) throw GlError("no EGL configuration with ES 3 and 8-bit colour for this window");
+        if (native.native_window)
+            throw GlError("no EGL configuration with ES 3 and 8-bit colour for this window");
         config = nullptr;  // EGL_KHR_no_config_context: a context without a surface needs none
     }
     const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
@@ -99,6 +110,8 @@ void Context::swap() {
     if (egl_->surface != EGL_NO_SURFACE) eglSwapBuffers(egl_->display, egl_->surface);
 }
 
-bool Context::has_window() const { return egl_->surface != EGL_NO_SURFACE; }
+bool Context::has_window() const {
+    return egl_->surface != EGL_NO_SURFACE;
+}
 
 }  // namespace eddy::gles

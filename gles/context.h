@@ -19,13 +19,13 @@ struct NativeDisplay {
 
 /// What this driver can do, asked once. Passes ask these flags; nobody asks the vendor string.
 struct Capabilities {
-    std::string renderer;             ///< GL_RENDERER
-    std::string vendor;               ///< GL_VENDOR
-    std::string version;              ///< GL_VERSION
-    bool filters_float = false;       ///< OES_texture_float_linear: 32-bit textures can be sampled linearly
-    bool timer_query = false;         ///< EXT_disjoint_timer_query
-    int max_texture_size = 0;         ///< texels
-    int max_draw_buffers = 0;         ///< colour attachments written by one pass
+    std::string renderer;        ///< GL_RENDERER
+    std::string vendor;          ///< GL_VENDOR
+    std::string version;         ///< GL_VERSION
+    bool filters_float = false;  ///< OES_texture_float_linear: 32-bit textures can be sampled linearly
+    bool timer_query = false;    ///< EXT_disjoint_timer_query
+    int max_texture_size = 0;    ///< texels
+    int max_draw_buffers = 0;    ///< colour attachments written by one pass
 };
 
 /// An OpenGL ES 3 context, current on the thread that made it until it is destroyed there.

@@ -4,9 +4,9 @@
 
 namespace eddy::gles {
 
-/// A field on a grid, in a texture leased from the pool. `Storage` (Cells, Faces, Cells4, Faces4) is part of the type,
-/// so a pass that wants faces cannot be given cells. Passes take fields by reference, and return new ones; a field that
-/// is assigned over gives its texture back.
+/// A field on a grid, in a texture leased from the pool. `Storage` (Cells, Faces, Cells4, Faces4) is part of
+/// the type, so a pass that wants faces cannot be given cells. Passes take fields by reference, and return
+/// new ones; a field that is assigned over gives its texture back.
 template <class Storage>
 class Field {
   public:

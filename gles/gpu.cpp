@@ -5,7 +5,9 @@
 
 namespace eddy::gles {
 
-void finish() { glFinish(); }
+void finish() {
+    glFinish();
+}
 
 Gpu::Gpu(const Capabilities& capabilities)
     : capabilities_(capabilities),
@@ -42,7 +44,8 @@ unsigned Gpu::framebuffer(const std::vector<const Texture*>& targets) {
     glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
     if (const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER); status != GL_FRAMEBUFFER_COMPLETE)
         throw GlError(fmt::format("{} refuses to draw into {} {} texture(s): framebuffer status {:#06x}",
-                                  capabilities_.renderer, targets.size(), to_string(targets[0]->format()), status));
+                                  capabilities_.renderer, targets.size(), to_string(targets[0]->format()),
+                                  status));
     return framebuffers_[key] = framebuffer;
 }
 

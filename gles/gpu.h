@@ -12,14 +12,14 @@ namespace eddy::gles {
 
 /// What one pass was asked to do, for the plan (`eddy simulate --plan`), the bench and the tests.
 struct PassRecord {
-    std::string stage;                       ///< the line of the step it belongs to
+    std::string stage;  ///< the line of the step it belongs to
     std::string pass;
-    std::vector<std::string> inputs;         ///< sampler names
+    std::vector<std::string> inputs;  ///< sampler names
     std::vector<const Texture*> outputs;
-    int draws = 0;                           ///< draw calls: one, or one for each box that is not empty
-    std::int64_t texels = 0;                 ///< texels written (one per fragment, whatever the number of outputs)
-    std::int64_t bytes = 0;                  ///< bytes written
-    std::int64_t fetches = 0;                ///< texture fetches, as declared by the shader
+    int draws = 0;             ///< draw calls: one, or one for each box that is not empty
+    std::int64_t texels = 0;   ///< texels written (one per fragment, whatever the number of outputs)
+    std::int64_t bytes = 0;    ///< bytes written
+    std::int64_t fetches = 0;  ///< texture fetches, as declared by the shader
 };
 
 /// Returns when the GPU has done everything it was asked to.

@@ -51,15 +51,19 @@ std::vector<float> unpack_scalars(const std::vector<glm::vec4>& texels, const At
     return values;
 }
 
-std::vector<float> unpack_four(const std::vector<glm::vec4>& texels, const AtlasLayout& layout, const glm::ivec3& n) {
+std::vector<float> unpack_four(const std::vector<glm::vec4>& texels, const AtlasLayout& layout,
+                               const glm::ivec3& n) {
     std::vector<float> values(static_cast<std::size_t>(n.x * n.y * n.z));
-    for_each_of_four(layout, n, [&](std::size_t i, std::size_t t, int channel) { values[i] = texels[t][channel]; });
+    for_each_of_four(layout, n,
+                     [&](std::size_t i, std::size_t t, int channel) { values[i] = texels[t][channel]; });
     return values;
 }
 
-std::vector<glm::vec4> pack_four(const std::vector<float>& values, const AtlasLayout& layout, const glm::ivec3& n) {
+std::vector<glm::vec4> pack_four(const std::vector<float>& values, const AtlasLayout& layout,
+                                 const glm::ivec3& n) {
     std::vector<glm::vec4> texels(texel_count(layout), glm::vec4(0.0f));
-    for_each_of_four(layout, n, [&](std::size_t i, std::size_t t, int channel) { texels[t][channel] = values[i]; });
+    for_each_of_four(layout, n,
+                     [&](std::size_t i, std::size_t t, int channel) { texels[t][channel] = values[i]; });
     return texels;
 }
 

@@ -8,7 +8,8 @@
 namespace eddy::gles {
 namespace {
 
-unsigned compile(GLenum kind, std::string_view path, const std::string& switches, const std::string& declarations) {
+unsigned compile(GLenum kind, std::string_view path, const std::string& switches,
+                 const std::string& declarations) {
     const ShaderSource source = load_shader(path, switches, declarations);
     const GLuint shader = glCreateShader(kind);
     const GLchar* text = source.text.c_str();
@@ -65,10 +66,16 @@ Region Region::packed(std::vector<Box> boxes) {
     return Region(std::move(boxes));
 }
 
-Pass::Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayout& target, const Variant& variant)
-    : gpu_(&gpu), name_(std::move(name)), shader_(shader), target_(target), fetches_(declared_fetches(shader)) {
+Pass::Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayout& target,
+           const Variant& variant)
+    : gpu_(&gpu),
+      name_(std::move(name)),
+      shader_(shader),
+      target_(target),
+      fetches_(declared_fetches(shader)) {
     const std::string defines = switches(gpu, variant), constants = declarations(target, variant);
-    const unsigned vertex = compile(GL_VERTEX_SHADER, "gles/pass.vert", "#define VERTEX_SHADER\n", target.declaration("TARGET"));
+    const unsigned vertex =
+        compile(GL_VERTEX_SHADER, "gles/pass.vert", "#define VERTEX_SHADER\n", target.declaration("TARGET"));
     const unsigned fragment = compile(GL_FRAGMENT_SHADER, shader, defines, constants);
     program_ = glCreateProgram();
     glAttachShader(program_, vertex);
@@ -97,10 +104,13 @@ Pass::Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayou
         glGetActiveUniform(program_, static_cast<GLuint>(i), sizeof text, nullptr, &size, &type, text);
         std::string uniform(text);
         const int location = glGetUniformLocation(program_, text);
-        if (uniform == "rect") rect_ = location;
-        else if (uniform == "first_slab") first_slab_ = location;
+        if (uniform == "rect")
+            rect_ = location;
+        else if (uniform == "first_slab")
+            first_slab_ = location;
         else {
-            if (const std::size_t bracket = uniform.find('['); bracket != std::string::npos) uniform.resize(bracket);
+            if (const std::size_t bracket = uniform.find('['); bracket != std::string::npos)
+                uniform.resize(bracket);
             const bool is_sampler = type == GL_SAMPLER_2D;
             // A sampler's "location" here is its texture unit: set once, never changed.
             if (is_sampler) glUniform1i(location, unit);
@@ -109,7 +119,9 @@ Pass::Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayou
     }
 }
 
-Pass::~Pass() { glDeleteProgram(program_); }
+Pass::~Pass() {
+    glDeleteProgram(program_);
+}
 
 Pass::Pass(Pass&& other) noexcept
     : gpu_(other.gpu_),
@@ -132,7 +144,8 @@ Pass::Location* Pass::find(std::string_view name) {
 void Pass::require_all_given() const {
     for (const Location& location : locations_)
         if (!location.given)
-            throw GlError(fmt::format("{}: uniform '{}' is used but was never given a value", shader_, location.name));
+            throw GlError(
+                fmt::format("{}: uniform '{}' is used but was never given a value", shader_, location.name));
 }
 
 void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& uniforms,

@@ -15,8 +15,8 @@ struct Input {
     const Texture* texture;
 };
 
-using UniformValue = std::variant<int, float, glm::vec2, glm::vec3, glm::vec4, glm::ivec3, glm::mat3, glm::mat4,
-                                  std::vector<glm::vec3>, std::vector<glm::vec4>>;
+using UniformValue = std::variant<int, float, glm::vec2, glm::vec3, glm::vec4, glm::ivec3, glm::mat3,
+                                  glm::mat4, std::vector<glm::vec3>, std::vector<glm::vec4>>;
 struct Uniform {
     const char* name;
     UniformValue value;
@@ -43,16 +43,18 @@ class Region {
 struct Variant {
     std::vector<std::pair<std::string, AtlasLayout>> layouts{};
     std::vector<std::pair<std::string, std::string>> defines{};
-    std::string declarations{};  ///< GLSL put in front of the shader, for what only the scene knows (its shapes)
+    std::string
+        declarations{};  ///< GLSL put in front of the shader, for what only the scene knows (its shapes)
 };
 
-/// One fragment shader drawn over a target. The shader's header says what it reads and writes, in which units.
-/// Locations are looked up once at link. Start-up fails, with the name, when the shader does not compile, or at the
-/// first draw when a uniform it uses is not given.
+/// One fragment shader drawn over a target. The shader's header says what it reads and writes, in which
+/// units. Locations are looked up once at link. Start-up fails, with the name, when the shader does not
+/// compile, or at the first draw when a uniform it uses is not given.
 class Pass {
   public:
     /// `target` is the layout of everything it writes; shaders call it TARGET.
-    Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayout& target, const Variant& variant = {});
+    Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayout& target,
+         const Variant& variant = {});
     ~Pass();
     Pass(Pass&& other) noexcept;
     Pass(const Pass&) = delete;

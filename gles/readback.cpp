@@ -38,7 +38,8 @@ std::optional<Readback::Result> Readback::take(bool wait) {
     if (under_way_ == 0) return std::nullopt;
     Slot& slot = slots_[first_];
     const GLuint64 patience_ns = wait ? 10'000'000'000ull : 0;
-    const GLenum state = glClientWaitSync(static_cast<GLsync>(slot.fence), GL_SYNC_FLUSH_COMMANDS_BIT, patience_ns);
+    const GLenum state =
+        glClientWaitSync(static_cast<GLsync>(slot.fence), GL_SYNC_FLUSH_COMMANDS_BIT, patience_ns);
     if (state == GL_TIMEOUT_EXPIRED && !wait) return std::nullopt;
     glDeleteSync(static_cast<GLsync>(slot.fence));
     slot.fence = nullptr;

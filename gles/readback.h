@@ -7,8 +7,8 @@
 
 namespace eddy::gles {
 
-/// Brings one small RGBA32F texture to the CPU without waiting: each request copies into a pixel buffer behind a fence,
-/// and is picked up when the fence has passed. Up to three requests may be under way.
+/// Brings one small RGBA32F texture to the CPU without waiting: each request copies into a pixel buffer
+/// behind a fence, and is picked up when the fence has passed. Up to three requests may be under way.
 class Readback {
   public:
     Readback(Gpu& gpu, const glm::ivec2& size);

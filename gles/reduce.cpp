@@ -7,10 +7,13 @@
 namespace eddy::gles {
 namespace {
 
-AtlasLayout flat(const glm::ivec2& size) { return {{size.x, size.y, 1}, 1}; }
+AtlasLayout flat(const glm::ivec2& size) {
+    return {{size.x, size.y, 1}, 1};
+}
 
 int block_of(const glm::ivec2& source) {
-    return std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(std::max(source.x, source.y))))));
+    return std::max(
+        1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(std::max(source.x, source.y))))));
 }
 
 Variant variant(const glm::ivec2& source, int block, const std::string& mask) {
@@ -27,7 +30,8 @@ Reduce::Reduce(Gpu& gpu, const std::string& name, const glm::ivec2& source, cons
                const std::string& mask)
     : middle_size_((source + block_of(source) - 1) / block_of(source)),
       gpu_(&gpu),
-      blocks_(gpu, name + " blocks", "gles/reduce.frag", flat(middle_size_), variant(source, block_of(source), mask)),
+      blocks_(gpu, name + " blocks", "gles/reduce.frag", flat(middle_size_),
+              variant(source, block_of(source), mask)),
       rest_(gpu, name, "gles/reduce.frag", flat(target),
             variant(middle_size_, std::max(middle_size_.x, middle_size_.y), mask)) {}
 

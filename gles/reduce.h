@@ -5,8 +5,9 @@
 
 namespace eddy::gles {
 
-/// Adds up all texels of a texture into one, in two passes of blocks (the square root of the work each), so that no
-/// pass is serial. `mask`: GLSL vec4 whose 1s choose the maximum instead of the sum, channel by channel.
+/// Adds up all texels of a texture into one, in two passes of blocks (the square root of the work each), so
+/// that no pass is serial. `mask`: GLSL vec4 whose 1s choose the maximum instead of the sum, channel by
+/// channel.
 class Reduce {
   public:
     Reduce(Gpu& gpu, const std::string& name, const glm::ivec2& source, const glm::ivec2& target,

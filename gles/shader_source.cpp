@@ -17,6 +17,14 @@ extern const std::span<const EmbeddedFile> kShaders;
 namespace eddy::gles {
 namespace {
 
+/// Line n of file number f is numbered f * kLines + n as well as given f. Mesa (22.3) keeps the file's number
+/// for syntax errors only and says 0 for all others; the line's number it always keeps.
+constexpr std::size_t kLines = 100'000;
+
+std::string line_mark(std::size_t file, std::size_t line) {
+    return fmt::format("#line {} {}\n", file * kLines + line, file);
+}
+
 const EmbeddedFile* find(std::string_view path) {
     for (const EmbeddedFile& file : kShaders)
         if (file.name == path) return &file;
@@ -35,30 +43,30 @@ class Expander {
     void expand(const EmbeddedFile& file) {
         const std::size_t number = out_.files.size();
         out_.files.emplace_back(file.name);
-        out_.text += fmt::format("#line 1 {}\n", number);
+        out_.text += line_mark(number, 1);
         std::istringstream lines{std::string(file.text)};
         std::string line;
-        for (int n = 1; std::getline(lines, line); ++n) {
+        for (std::size_t n = 1; std::getline(lines, line); ++n) {
             if (line.rfind("#include", 0) != 0) {
                 out_.text += line + '\n';
                 continue;
             }
             const EmbeddedFile& wanted = resolve(file.name, line, n);
             if (included_.insert(wanted.name).second) expand(wanted);
-            out_.text += fmt::format("#line {} {}\n", n + 1, number);
+            out_.text += line_mark(number, n + 1);
         }
     }
 
   private:
-    static const EmbeddedFile& resolve(std::string_view from, const std::string& line, int n) {
+    static const EmbeddedFile& resolve(std::string_view from, const std::string& line, std::size_t n) {
         const std::size_t open = line.find('"'), close = line.rfind('"');
         if (open == close) throw GlError(fmt::format("{}:{}: #include needs a \"file\"", from, n));
         const std::string name = line.substr(open + 1, close - open - 1);
         const std::string folder(from.substr(0, from.rfind('/') + 1));
         if (const EmbeddedFile* beside = find(folder + name)) return *beside;
         if (const EmbeddedFile* common = find("gles/" + name)) return *common;
-        throw GlError(fmt::format("{}:{}: no shader file {} or gles/{}; is it listed in gles/CMakeLists.txt?", from, n,
-                                  folder + name, name));
+        throw GlError(fmt::format("{}:{}: no shader file {} or gles/{}; is it listed in gles/CMakeLists.txt?",
+                                  from, n, folder + name, name));
     }
 
     ShaderSource& out_;
@@ -71,7 +79,8 @@ ShaderSource load_shader(std::string_view path, std::string_view switches, std::
     return expand_shader(find_or_throw(path), switches, declarations);
 }
 
-ShaderSource expand_shader(const EmbeddedFile& file, std::string_view switches, std::string_view declarations) {
+ShaderSource expand_shader(const EmbeddedFile& file, std::string_view switches,
+                           std::string_view declarations) {
     ShaderSource source;
     source.text =
         "#version 300 es\n"
@@ -79,7 +88,8 @@ ShaderSource expand_shader(const EmbeddedFile& file, std::string_view switches, 
     source.text += switches;
     Expander expander(source);
     expander.expand(find_or_throw("gles/atlas.glsl"));
-    source.text += fmt::format("#line 1 {}\n{}", source.files.size(), declarations);
+    source.text += line_mark(source.files.size(), 1);
+    source.text += declarations;
     source.files.push_back(fmt::format("declarations for {}", file.name));
     expander.expand(file);
     return source;
@@ -90,9 +100,10 @@ std::string ShaderSource::locate(std::string_view log) const {
     std::string rest(log), result;
     std::smatch m;
     while (std::regex_search(rest, m, number)) {
-        const std::size_t file = std::stoul(m[3]);
+        const std::size_t line = std::stoul(m[5]);
+        const std::size_t file = line >= kLines ? line / kLines : std::stoul(m[3]);
         const std::string name = file < files.size() ? files[file] : m[3].str();
-        result += m.prefix().str() + m[1].str() + m[2].str() + name + ":" + m[5].str();
+        result += fmt::format("{}{}{}{}:{}", m.prefix().str(), m[1].str(), m[2].str(), name, line % kLines);
         const bool in_parentheses = m[4] == "(";
         rest = m.suffix().str();
         if (in_parentheses && !rest.empty() && rest.front() == ')') rest.erase(0, 1);
@@ -104,7 +115,8 @@ int declared_fetches(std::string_view path) {
     const std::string_view text = find_or_throw(path).text;
     const std::size_t word = text.find("// fetches");
     if (word == std::string_view::npos)
-        throw GlError(fmt::format("{}: its header has no line '// fetches N', the texture fetches per texel", path));
+        throw GlError(
+            fmt::format("{}: its header has no line '// fetches N', the texture fetches per texel", path));
     return std::stoi(std::string(text.substr(word + 10, 12)));
 }
 

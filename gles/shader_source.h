@@ -12,17 +12,20 @@ struct ShaderSource {
     std::string text;
     std::vector<std::string> files;  ///< file number used in #line -> path from the top of the tree
 
-    /// The driver's log with its file numbers ("0:12(5): error", "0(12) : error", "ERROR: 0:12:") turned into paths.
+    /// The driver's log with its file numbers ("0:12(5): error", "0(12) : error", "ERROR: 0:12:") turned into
+    /// paths.
     std::string locate(std::string_view log) const;
 };
 
-/// Reads an embedded shader ("gles/fluid/advect.frag") and expands each `#include "file"` (from the same folder, or else
-/// from gles/) once. In front of it: `#version 300 es`, the precisions, `switches` (#defines), gles/atlas.glsl and
-/// `declarations` (constants and functions). Throws GlError with file and line when an include is missing.
+/// Reads an embedded shader ("gles/fluid/advect.frag") and expands each `#include "file"` (from the same
+/// folder, or else from gles/) once. In front of it: `#version 300 es`, the precisions, `switches`
+/// (#defines), gles/atlas.glsl and `declarations` (constants and functions). Throws GlError with file and
+/// line when an include is missing.
 ShaderSource load_shader(std::string_view path, std::string_view switches, std::string_view declarations);
 
 /// The same for a shader that is not among the embedded ones; its includes are.
-ShaderSource expand_shader(const EmbeddedFile& file, std::string_view switches, std::string_view declarations);
+ShaderSource expand_shader(const EmbeddedFile& file, std::string_view switches,
+                           std::string_view declarations);
 
 /// The first number after "fetches" in the shader's header: texture fetches for one texel written.
 int declared_fetches(std::string_view path);

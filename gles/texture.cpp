@@ -17,24 +17,32 @@ struct FormatRow {
 
 const FormatRow& row(Format format) {
     static constexpr FormatRow kRows[] = {
-        {GL_R32F, GL_RED, GL_FLOAT, 4, 1, "R32F"},          {GL_RG32F, GL_RG, GL_FLOAT, 8, 2, "RG32F"},
-        {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, 4, "RGBA32F"},  {GL_R16F, GL_RED, GL_FLOAT, 2, 1, "R16F"},
-        {GL_RGBA16F, GL_RGBA, GL_FLOAT, 8, 4, "RGBA16F"},   {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 4, "RGBA8"},
+        {GL_R32F, GL_RED, GL_FLOAT, 4, 1, "R32F"},
+        {GL_RG32F, GL_RG, GL_FLOAT, 8, 2, "RG32F"},
+        {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, 4, "RGBA32F"},
+        {GL_R16F, GL_RED, GL_FLOAT, 2, 1, "R16F"},
+        {GL_RGBA16F, GL_RGBA, GL_FLOAT, 8, 4, "RGBA16F"},
+        {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 4, "RGBA8"},
     };
     return kRows[static_cast<std::size_t>(format)];
 }
 
 }  // namespace
 
-std::size_t bytes_per_texel(Format format) { return row(format).bytes; }
-const char* to_string(Format format) { return row(format).name; }
+std::size_t bytes_per_texel(Format format) {
+    return row(format).bytes;
+}
+const char* to_string(Format format) {
+    return row(format).name;
+}
 
 Texture::Texture(const glm::ivec2& size, Format format, bool linear) : size_(size), format_(format) {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (size.x > limit || size.y > limit)
-        throw GlError(fmt::format("the grid needs a texture of {} x {} texels; this driver's limit is {}. Use fewer cells",
-                                  size.x, size.y, limit));
+        throw GlError(fmt::format(
+            "the grid needs a texture of {} x {} texels; this driver's limit is {}. Use fewer cells", size.x,
+            size.y, limit));
     glGenTextures(1, &id_);
     glBindTexture(GL_TEXTURE_2D, id_);
     glTexStorage2D(GL_TEXTURE_2D, 1, row(format).internal, size.x, size.y);
@@ -44,10 +52,13 @@ Texture::Texture(const glm::ivec2& size, Format format, bool linear) : size_(siz
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     if (glGetError() == GL_OUT_OF_MEMORY)
-        throw GlError(fmt::format("out of GPU memory for a {} texture of {} x {}", to_string(format), size.x, size.y));
+        throw GlError(
+            fmt::format("out of GPU memory for a {} texture of {} x {}", to_string(format), size.x, size.y));
 }
 
-Texture::~Texture() { glDeleteTextures(1, &id_); }
+Texture::~Texture() {
+    glDeleteTextures(1, &id_);
+}
 
 std::size_t Texture::bytes() const {
     return row(format_).bytes * static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);

@@ -26,7 +26,8 @@ class Texture {
 
     /// Replaces the content: size.x * size.y texels, row by row, as floats of the format's channel count.
     void upload(const float* texels);
-    /// Waits for the GPU. RGBA floats for float formats, whatever the channel count (missing channels are 0, alpha 1).
+    /// Waits for the GPU. RGBA floats for float formats, whatever the channel count (missing channels are 0,
+    /// alpha 1).
     std::vector<glm::vec4> download() const;
 
   private:
@@ -35,8 +36,8 @@ class Texture {
     Format format_;
 };
 
-/// Textures come from here and go back when their Lease dies, so that ping-pong needs no bookkeeping and a running
-/// simulation allocates nothing after its first step.
+/// Textures come from here and go back when their Lease dies, so that ping-pong needs no bookkeeping and a
+/// running simulation allocates nothing after its first step.
 class TexturePool {
   public:
     explicit TexturePool(bool filters_float) : filters_float_(filters_float) {}
@@ -44,7 +45,8 @@ class TexturePool {
     class Lease {
       public:
         Lease() = default;
-        Lease(TexturePool* pool, std::unique_ptr<Texture> texture) : pool_(pool), texture_(std::move(texture)) {}
+        Lease(TexturePool* pool, std::unique_ptr<Texture> texture)
+            : pool_(pool), texture_(std::move(texture)) {}
         Lease(Lease&&) noexcept = default;
         Lease& operator=(Lease&& other) noexcept;
         ~Lease() { give_back(); }

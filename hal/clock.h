@@ -7,8 +7,8 @@ using Seconds = std::chrono::duration<double>;
 /// Time since the clock was made. Integer nanoseconds, so that a stepped run adds up exactly.
 using Instant = std::chrono::nanoseconds;
 
-/// Where a loop takes its time from. Both loops (fluid and haptic) use nothing else, so that a run on the stepped
-/// clock is a pure function of its input.
+/// Where a loop takes its time from. Both loops (fluid and haptic) use nothing else, so that a run on the
+/// stepped clock is a pure function of its input.
 class Clock {
   public:
     virtual ~Clock() = default;

@@ -17,7 +17,8 @@ namespace eddy {
 namespace {
 
 constexpr SolverPreset kPresets[] = {SolverPreset::Fast, SolverPreset::Precise, SolverPreset::Yang2009};
-constexpr int kWarmUp = 5;  // steps before timing starts: shaders are compiled, textures made, the pressure warm
+constexpr int kWarmUp =
+    5;  // steps before timing starts: shaders are compiled, textures made, the pressure warm
 
 /// One preset on one grid.
 struct Measurement {
@@ -90,12 +91,13 @@ Measurement measure(gles::Gpu& gpu, Scene scene, int cells, SolverPreset preset,
 
 void print(const Measurement& m, const Measurement* yardstick) {
     const double fetches = static_cast<double>(m.fetches);
-    fmt::print("\n{}^3 {}: {} passes, {:.1f} M fetches, {:.1f} MB written; a step cuts max|div u| {:.0f}-fold\n", m.cells,
-               m.preset, m.passes, fetches / 1e6, static_cast<double>(m.bytes) / 1e6, m.divergence_cut);
+    fmt::print(
+        "\n{}^3 {}: {} passes, {:.1f} M fetches, {:.1f} MB written; a step cuts max|div u| {:.0f}-fold\n",
+        m.cells, m.preset, m.passes, fetches / 1e6, static_cast<double>(m.bytes) / 1e6, m.divergence_cut);
     fmt::print("  {:<18}{:>10}{:>10}{:>10}{:>10}\n", "ms", "cpu p50", "cpu p95", "wall p50", "wall p95");
     const auto row = [](const std::string& name, const Timings& t) {
-        fmt::print("  {:<18}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}\n", name, median(t.cpu_ms), percentile_95(t.cpu_ms),
-                   median(t.wall_ms), percentile_95(t.wall_ms));
+        fmt::print("  {:<18}{:>10.2f}{:>10.2f}{:>10.2f}{:>10.2f}\n", name, median(t.cpu_ms),
+                   percentile_95(t.cpu_ms), median(t.wall_ms), percentile_95(t.wall_ms));
     };
     for (const auto& [name, timings] : m.stages) row(name, timings);
     row("whole step", m.step);
@@ -113,7 +115,8 @@ nlohmann::ordered_json to_json(const Timings& t) {
             {"repeats", t.wall_ms.size()}};
 }
 
-std::string to_json(const std::vector<Measurement>& all, const gles::Capabilities& driver, const Scene& scene) {
+std::string to_json(const std::vector<Measurement>& all, const gles::Capabilities& driver,
+                    const Scene& scene) {
     nlohmann::ordered_json j;
     j["eddy_version"] = EDDY_VERSION;
     j["scene"] = scene.title;
@@ -144,10 +147,13 @@ int bench(const BenchOptions& options) {
     Graphics graphics(make_headless_display());
     const gles::Capabilities& driver = graphics.gpu.capabilities();
     fmt::print("{} ({}, {})\n{}\n", driver.renderer, driver.vendor, driver.version, describe_machine());
-    fmt::print("scene: {}; {} repeats after {} steps of warm-up. yang2009 is the yardstick: the pipeline of the 2009 paper\n"
-               "with 40 Jacobi sweeps (the count is ours). Stages are timed with the GPU drained before and after each;\n"
-               "whole steps are not, so they may be shorter than the sum.\n",
-               scene.title, options.repeats, kWarmUp);
+    fmt::print(
+        "scene: {}; {} repeats after {} steps of warm-up. yang2009 is the yardstick: the pipeline of the "
+        "2009 paper\n"
+        "with 40 Jacobi sweeps (the count is ours). Stages are timed with the GPU drained before and after "
+        "each;\n"
+        "whole steps are not, so they may be shorter than the sum.\n",
+        scene.title, options.repeats, kWarmUp);
     std::vector<Measurement> all;
     Progress progress("bench");
     const double total = static_cast<double>(options.grids.size() * std::size(kPresets));
@@ -158,7 +164,8 @@ int bench(const BenchOptions& options) {
             progress.show(static_cast<double>(all.size()), total, fmt::format("{}^3", cells));
         }
         progress.finish();
-        for (std::size_t i = first; i < all.size(); ++i) print(all[i], i + 1 == all.size() ? nullptr : &all.back());
+        for (std::size_t i = first; i < all.size(); ++i)
+            print(all[i], i + 1 == all.size() ? nullptr : &all.back());
     }
     if (!options.json.empty()) {
         replace_text_file(options.json, to_json(all, driver, scene));

@@ -12,7 +12,8 @@ namespace {
 /// A scene file has tables that an exhibit's settings never have.
 bool looks_like_a_scene(const std::string& file) {
     const std::string text = read_file(file);
-    for (const std::string_view table : {"[tank]", "[[body]]", "[[source]]", "[fluid]", "[solver]", "[smoke]"})
+    for (const std::string_view table :
+         {"[tank]", "[[body]]", "[[source]]", "[fluid]", "[solver]", "[smoke]"})
         if (text.find(table) != std::string::npos) return true;
     return false;
 }
@@ -32,7 +33,9 @@ int check_config(const std::string& file) {
 
 int print_config(const std::string& scene, const std::vector<std::string>& set, bool origin) {
     if (scene.empty()) {
-        if (!set.empty()) throw InputError("--set: name the scene it changes, as in print-config jet --set solver.dt_s=0.01");
+        if (!set.empty())
+            throw InputError(
+                "--set: name the scene it changes, as in print-config jet --set solver.dt_s=0.01");
         const LoadedExhibit loaded = load_exhibit();
         fmt::print("{}", print_exhibit(loaded.exhibit, origin ? &loaded.origins : nullptr));
     } else {

@@ -27,8 +27,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A fluid step covers the time since the last one, but never more: after a stall the fluid loses time instead of
-/// leaping.
+/// A fluid step covers the time since the last one, but never more: after a stall the fluid loses time
+/// instead of leaping.
 constexpr Seconds kLongestStep{0.1};
 /// One step in this many is timed stage by stage and diagnosed; both make it wait for the GPU.
 constexpr long kMeasureEvery = 20;
@@ -65,7 +65,8 @@ std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoi
     const emulated::AxisMap axes = axes_of(options);
     if (choice == HapticsChoice::None) return nullptr;
     if (choice == HapticsChoice::Falcon)
-        throw InputError("--haptics falcon: this version cannot drive a real Falcon yet; use emulated, or auto");
+        throw InputError(
+            "--haptics falcon: this version cannot drive a real Falcon yet; use emulated, or auto");
     emulated::EmulatedFalconSettings settings;
     std::unique_ptr<emulated::HandMotion> motion;
     if (options.motion.empty()) {
@@ -75,8 +76,8 @@ std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoi
     } else {
         settings.plant.hand = emulated::Hand::OnPath;  // a recording is what a hand did, whatever it felt
         try {
-            motion = std::make_unique<emulated::RecordedMotion>(read_text_file(options.motion), options.motion, axes,
-                                                                emulated::AtEnd::Loop);
+            motion = std::make_unique<emulated::RecordedMotion>(read_text_file(options.motion),
+                                                                options.motion, axes, emulated::AtEnd::Loop);
         } catch (const std::runtime_error& e) {
             throw InputError(fmt::format("--motion: {}", e.what()));
         }
@@ -101,8 +102,8 @@ gles::RenderSetup render_setup(const Scene& scene) {
 /// Everything one run holds, wired together.
 class Run {
   public:
-    Run(const RunOptions& options, const Exhibit& exhibit, const Scene& scene, std::unique_ptr<HapticDevice> device,
-        std::unique_ptr<Display> display)
+    Run(const RunOptions& options, const Exhibit& exhibit, const Scene& scene,
+        std::unique_ptr<HapticDevice> device, std::unique_ptr<Display> display)
         : options_(options),
           scene_(scene),
           device_(std::move(device)),
@@ -118,8 +119,10 @@ class Run {
         settings.gate.max_force_n = std::min(scene.haptics.max_force_n, exhibit.max_force_n);
         if (device_) loop_.emplace(*device_, exchange_, trace_, settings);
         exchange_.orders.publish(orders_for(scene));
-        // status.json goes where it is asked for; by default to the run folder of the service, if there is one.
-        const std::filesystem::path folder = options.run_dir.empty() ? exhibit.run_dir : std::filesystem::path(options.run_dir);
+        // status.json goes where it is asked for; by default to the run folder of the service, if there is
+        // one.
+        const std::filesystem::path folder =
+            options.run_dir.empty() ? exhibit.run_dir : std::filesystem::path(options.run_dir);
         if (std::filesystem::is_directory(folder)) status_file_ = folder / "status.json";
     }
 
@@ -135,7 +138,8 @@ class Run {
 
   private:
     Instant end() const {
-        return options_.seconds ? std::chrono::duration_cast<Instant>(Seconds(*options_.seconds)) : Instant::max();
+        return options_.seconds ? std::chrono::duration_cast<Instant>(Seconds(*options_.seconds))
+                                : Instant::max();
     }
     void fluid_update(Instant now, Seconds dt);
     void record_frame();
@@ -187,12 +191,13 @@ void Run::drain_trace() {
 void Run::report(Instant now, bool force) {
     loop_report_ = exchange_.report.newest();
     if (options_.seconds)
-        progress_.show(Seconds(now).count(), *options_.seconds, fmt::format("{} fluid steps", show_.figures().steps));
+        progress_.show(Seconds(now).count(), *options_.seconds,
+                       fmt::format("{} fluid steps", show_.figures().steps));
     if (status_file_.empty() || (now < status_due_ && !force)) return;
     status_due_ = now + 1s;
-    write_status(status_file_, {scene_.title, graphics_.gpu.capabilities().renderer, graphics_.display->describe(),
-                                device_ ? device_->describe() : "none", Seconds(now).count(), show_.figures(),
-                                loop_report_});
+    write_status(status_file_, {scene_.title, graphics_.gpu.capabilities().renderer,
+                                graphics_.display->describe(), device_ ? device_->describe() : "none",
+                                Seconds(now).count(), show_.figures(), loop_report_});
 }
 
 /// Both loops on their own threads and the machine's clock, as a visitor meets them.
@@ -231,12 +236,14 @@ void Run::real() {
     clock_s_ = wall_s_ = Seconds(clock.now()).count();
     report(now, true);
     if (loop_ && !grant.fifo)
-        fmt::print(stderr, "the haptic thread has no real-time priority ({}); set LimitRTPRIO=50 in its unit\n",
+        fmt::print(stderr,
+                   "the haptic thread has no real-time priority ({}); set LimitRTPRIO=50 in its unit\n",
                    std::strerror(grant.fifo_error));
 }
 
-/// Both loops on one virtual clock and one thread: the same input gives the same run, bit for bit. The fluid's answer
-/// reaches the hand one fluid period after its question, as on a GPU that works on it meanwhile.
+/// Both loops on one virtual clock and one thread: the same input gives the same run, bit for bit. The
+/// fluid's answer reaches the hand one fluid period after its question, as on a GPU that works on it
+/// meanwhile.
 void Run::stepped() {
     SteppedClock clock;
     const RealClock wall;
@@ -270,23 +277,26 @@ void Run::summarise() const {
     const auto print_stages = [&] {
         std::string text;
         for (const std::string& stage : stopwatch_.stages())
-            text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", stage, median(stopwatch_.of(stage).wall_ms));
+            text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", stage,
+                                median(stopwatch_.of(stage).wall_ms));
         return text;
     };
-    fmt::print("scene       {} ({}x{}x{} cells of {:.2f} mm)\n", scene_.title, scene_.tank.cells.x, scene_.tank.cells.y,
-               scene_.tank.cells.z, scene_.tank.cell_m() * 1e3);
+    fmt::print("scene       {} ({}x{}x{} cells of {:.2f} mm)\n", scene_.title, scene_.tank.cells.x,
+               scene_.tank.cells.y, scene_.tank.cells.z, scene_.tank.cell_m() * 1e3);
     fmt::print("renderer    {}, {}\n", graphics_.gpu.capabilities().renderer, graphics_.display->describe());
     fmt::print("hand        {}\n", device_ ? device_->describe() : "none");
     fmt::print("fluid       {} steps in {:.1f} s of {} clock: {:.1f} steps/s\n", f.steps, clock_s_,
-               options_.clock == ClockChoice::Real ? "real" : "stepped", static_cast<double>(f.steps) / wall_s_);
+               options_.clock == ClockChoice::Real ? "real" : "stepped",
+               static_cast<double>(f.steps) / wall_s_);
     fmt::print("ms a stage  {} (wall, median of one step in {})\n", print_stages(), kMeasureEvery);
     fmt::print("divergence  {:.3g} 1/s before the projection, {:.3g} 1/s after it ({:.0f}-fold)\n",
                f.divergence_before_1_s, f.divergence_after_1_s,
                f.divergence_after_1_s > 0.0 ? f.divergence_before_1_s / f.divergence_after_1_s : 0.0);
-    fmt::print("force       {:.3g} to {:.3g} N from the fluid after gain, at most {:.3g} N sent\n", f.least_force_n,
-               f.most_force_n, sent_most_n_);
-    fmt::print("haptic loop {} ticks in {:.1f} s: {:.0f} Hz; {} late, {} left out, worst {:.2f} ms\n", loop_report_.ticks,
-               clock_s_, clock_s_ > 0.0 ? static_cast<double>(loop_report_.ticks) / clock_s_ : 0.0, loop_report_.late,
+    fmt::print("force       {:.3g} to {:.3g} N from the fluid after gain, at most {:.3g} N sent\n",
+               f.least_force_n, f.most_force_n, sent_most_n_);
+    fmt::print("haptic loop {} ticks in {:.1f} s: {:.0f} Hz; {} late, {} left out, worst {:.2f} ms\n",
+               loop_report_.ticks, clock_s_,
+               clock_s_ > 0.0 ? static_cast<double>(loop_report_.ticks) / clock_s_ : 0.0, loop_report_.late,
                loop_report_.missed, Seconds(loop_report_.worst_late).count() * 1e3);
     fmt::print("gate        {}; clamped {}, slewed {}, not finite {}\n", to_string(loop_report_.reason),
                loop_report_.gate.clamped, loop_report_.gate.slewed, loop_report_.gate.non_finite);
@@ -311,8 +321,10 @@ int run(const RunOptions& options) {
     if (!options.record.empty()) prepare_folder("--record", options.record);
     if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);
     Run run(options, exhibit, scene, std::move(device), std::move(display));
-    if (options.clock == ClockChoice::Real) run.real();
-    else run.stepped();
+    if (options.clock == ClockChoice::Real)
+        run.real();
+    else
+        run.stepped();
     run.finish();
     run.summarise();
     return 0;

@@ -71,7 +71,8 @@ void write_fields(const std::filesystem::path& out, const Scene& scene, const gl
         if (field == OutputField::Velocity) {
             const std::vector<glm::vec3> u = fluid.velocity();
             const int extra = static_cast<int>(u.size()) == n.x * n.y * n.z ? 0 : 1;  // faces: one layer more
-            write_npy(out / "velocity.npy", {&u[0].x, 3 * u.size()}, {n.z + extra, n.y + extra, n.x + extra, 3});
+            write_npy(out / "velocity.npy", {&u[0].x, 3 * u.size()},
+                      {n.z + extra, n.y + extra, n.x + extra, 3});
         } else if (field == OutputField::Pressure) {
             write_npy(out / "pressure.npy", fluid.pressure(), {n.z, n.y, n.x});
         } else {
@@ -131,13 +132,14 @@ int simulate(const SimulateOptions& options) {
     summary.seconds = static_cast<double>(steps) * dt;
     summary.wall_s = milliseconds_since(start) / 1e3;
 
-    fmt::print("{}: {} steps of {} s on {}\n", scene.title.empty() ? options.scene : scene.title, summary.steps, dt,
-               graphics.gpu.capabilities().renderer);
+    fmt::print("{}: {} steps of {} s on {}\n", scene.title.empty() ? options.scene : scene.title,
+               summary.steps, dt, graphics.gpu.capabilities().renderer);
     fmt::print("{:.1f} steps/s; each step cut the divergence by a factor of {:.0f} or more\n",
                static_cast<double>(steps) / summary.wall_s, summary.divergence_cut);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const glm::dvec3 f = summary.last.loads[i].force_n;
-        fmt::print("force on {} at the end: ({:.4e}, {:.4e}, {:.4e}) N\n", scene.bodies[i].name, f.x, f.y, f.z);
+        fmt::print("force on {} at the end: ({:.4e}, {:.4e}, {:.4e}) N\n", scene.bodies[i].name, f.x, f.y,
+                   f.z);
     }
     if (!options.out.empty()) {
         const std::filesystem::path out(options.out);

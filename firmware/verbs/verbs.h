@@ -9,16 +9,16 @@
 
 namespace eddy {
 
-// The verbs of the command line. Each returns the exit status: 0 done, 1 failed. Bad input is thrown (ConfigError,
-// InputError) and becomes 2 in main.cpp, before any work was done.
+// The verbs of the command line. Each returns the exit status: 0 done, 1 failed. Bad input is thrown
+// (ConfigError, InputError) and becomes 2 in main.cpp, before any work was done.
 
 struct SimulateOptions {
     std::string scene;
-    std::vector<std::string> set;        ///< key=value
+    std::vector<std::string> set;  ///< key=value
     std::optional<double> seconds;
     std::optional<long> steps;
-    std::string out;                     ///< folder; empty: print the summary only
-    bool plan = false;                   ///< print the passes and textures the scene calls for, and stop
+    std::string out;    ///< folder; empty: print the summary only
+    bool plan = false;  ///< print the passes and textures the scene calls for, and stop
 };
 int simulate(const SimulateOptions& options);
 
@@ -27,25 +27,25 @@ struct BenchOptions {
     std::vector<std::string> set;
     std::vector<int> grids{25, 32, 48, 64, 96, 128};
     int repeats = 30;
-    std::string json;                    ///< file; empty: none
+    std::string json;  ///< file; empty: none
 };
 int bench(const BenchOptions& options);
 
 enum class ClockChoice { Real, Stepped };
 
 struct RunOptions {
-    std::string scene;                   ///< empty: what the exhibit's configuration says
+    std::string scene;  ///< empty: what the exhibit's configuration says
     std::vector<std::string> set;
     std::optional<DisplayChoice> display;
     std::optional<HapticsChoice> haptics;
     std::string motion;                  ///< CSV for the emulated hand; empty: a person-like motion
     std::string motion_axes = "x,z,-y";  ///< which way the recording's axes point
     std::uint64_t seed = 1;
-    std::optional<double> seconds;       ///< none: until told to stop
-    std::string record;                  ///< folder for pictures and force.csv
-    double frames_per_s = 10.0;          ///< pictures recorded per second
+    std::optional<double> seconds;  ///< none: until told to stop
+    std::string record;             ///< folder for pictures and force.csv
+    double frames_per_s = 10.0;     ///< pictures recorded per second
     ClockChoice clock = ClockChoice::Real;
-    std::string run_dir;                 ///< where status.json goes; empty: from the configuration, if writable
+    std::string run_dir;  ///< where status.json goes; empty: from the configuration, if writable
 };
 int run(const RunOptions& options);
 

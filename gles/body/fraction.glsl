@@ -7,9 +7,16 @@
 
 const float kSliver = 1e-4;
 
-// n: |components| of the unit normal. Components are kept off zero so that the quotient stays well conditioned.
+// Components of the normal are not let below this. For a face along the grid the fraction would otherwise have a kink
+// where the surface passes a cell's edge, and a body gliding by would be felt to tick once a cell: rms ripple of the drag
+// coefficient of a sphere of 4 cells at 0.2 cells a step, measured by tests/physics/ripple_test.cpp for 0.05, 0.2, 0.3,
+// 0.45, 0.6: 0.0077, 0.0065, 0.0027, 0.0050, 0.0015 (fast preset). It is one more box filter across the surface, so the solid's volume
+// stays what it is; the price is added mass, 0.1 % at 0.3 and 1 % at 0.6.
+const float kLeastNormal = 0.3;
+
+// n: |components| of the unit normal.
 float fluid_fraction(float distance, vec3 n) {
-    n = max(abs(n), vec3(0.05));
+    n = max(abs(n), vec3(kLeastNormal));
     float alpha = distance + 0.5 * (n.x + n.y + n.z);
     vec3 one = max(alpha - n, 0.0);
     vec3 two = max(alpha - n.yzx - n.zxy, 0.0);

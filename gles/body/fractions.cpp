@@ -5,10 +5,15 @@
 namespace eddy::gles {
 namespace {
 
-std::string ivec3_text(const glm::ivec3& v) { return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z); }
+std::string ivec3_text(const glm::ivec3& v) {
+    return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z);
+}
 
-/// A face belongs to the two cells at its sides: a box of cells touches one layer of faces more at its upper side.
-Box faces_of(const Box& cells) { return {cells.lo, cells.hi + 1}; }
+/// A face belongs to the two cells at its sides: a box of cells touches one layer of faces more at its upper
+/// side.
+Box faces_of(const Box& cells) {
+    return {cells.lo, cells.hi + 1};
+}
 
 }  // namespace
 
@@ -19,8 +24,8 @@ Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::
     for (const glm::ivec3& n : grids)
         levels_.push_back({{gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}});
     for (std::size_t l = 0; l + 1 < grids.size(); ++l)
-        coarsen_.emplace_back(gpu, fmt::format("coarsen fractions {}", l + 1), "gles/body/coarsen_fractions.frag",
-                              Faces4::layout(grids[l + 1]),
+        coarsen_.emplace_back(gpu, fmt::format("coarsen fractions {}", l + 1),
+                              "gles/body/coarsen_fractions.frag", Faces4::layout(grids[l + 1]),
                               Variant{.layouts = {{"FINE", Faces4::layout(grids[l])}},
                                       .defines = {{"FINE_LAYERS", fmt::format("{}", grids[l].z + 1)},
                                                   {"FINE_CELLS", ivec3_text(grids[l])}}});
@@ -50,12 +55,13 @@ void Fractions::update(const BodyUniforms& bodies, const std::vector<Box>& boxes
 
 void Fractions::draw(const BodyUniforms& bodies, const Region& finest, const std::vector<Region>& coarse) {
     const FaceFractions& a = levels_[0];
-    finest_.draw({}, {bodies.centre(), bodies.size()}, {&a.x.texture(), &a.y.texture(), &a.z.texture()}, finest);
+    finest_.draw({}, {bodies.centre(), bodies.size()}, {&a.x.texture(), &a.y.texture(), &a.z.texture()},
+                 finest);
     for (std::size_t l = 0; l < coarsen_.size(); ++l) {
         const FaceFractions& fine = levels_[l];
         const FaceFractions& c = levels_[l + 1];
-        coarsen_[l].draw({{"ax", &fine.x.texture()}, {"ay", &fine.y.texture()}, {"az", &fine.z.texture()}}, {},
-                         {&c.x.texture(), &c.y.texture(), &c.z.texture()}, coarse[l]);
+        coarsen_[l].draw({{"ax", &fine.x.texture()}, {"ay", &fine.y.texture()}, {"az", &fine.z.texture()}},
+                         {}, {&c.x.texture(), &c.y.texture(), &c.z.texture()}, coarse[l]);
     }
 }
 

@@ -11,8 +11,8 @@ struct FaceFractions {
     Field<Faces4> x, y, z;
 };
 
-/// Face fractions on the finest grid and on the coarse grids of the pressure solver. Only the boxes where a body is or
-/// was are drawn each step; everywhere else the fractions stay 1.
+/// Face fractions on the finest grid and on the coarse grids of the pressure solver. Only the boxes where a
+/// body is or was are drawn each step; everywhere else the fractions stay 1.
 class Fractions {
   public:
     /// `grids`: cells of each level, finest first.

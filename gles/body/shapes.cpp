@@ -21,15 +21,17 @@ std::string distance_expression(const Shape& shape, std::size_t b) {
 }
 
 glm::vec3 size_cells(const Shape& shape, double cell_m) {
-    return std::visit(Overloaded{[&](const Sphere& s) { return glm::vec3(s.radius_m / cell_m, 0.0, 0.0); }}, shape);
+    return std::visit(Overloaded{[&](const Sphere& s) { return glm::vec3(s.radius_m / cell_m, 0.0, 0.0); }},
+                      shape);
 }
 
 }  // namespace
 
 std::string shape_declarations(const std::vector<BodySetup>& bodies) {
     if (bodies.empty()) return "";
-    std::string text = fmt::format(
-        "uniform vec3 body_centre[{0}], body_size[{0}], body_velocity[{0}], body_spin[{0}];\n", bodies.size());
+    std::string text =
+        fmt::format("uniform vec3 body_centre[{0}], body_size[{0}], body_velocity[{0}], body_spin[{0}];\n",
+                    bodies.size());
     text += "float solid_distance(vec3 x) {\n";
     text += fmt::format("    float d = {};\n", distance_expression(bodies[0].shape, 0));
     for (std::size_t b = 1; b < bodies.size(); ++b)

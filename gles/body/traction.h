@@ -10,10 +10,11 @@ namespace eddy::gles {
 class Traction {
   public:
     /// `target_width`: width in texels of the row that takes the results.
-    Traction(Gpu& gpu, const glm::ivec3& cells, double cell_m, const std::vector<BodySetup>& bodies, int target_width);
+    Traction(Gpu& gpu, const glm::ivec3& cells, double cell_m, const std::vector<BodySetup>& bodies,
+             int target_width);
 
-    /// Writes, for body i, sum(phi grad(1-a)) to texel 2i of `target` and its moment to texel 2i + 1: in m/s cells^2 and
-    /// m/s cells^3. Times rho h^3/dt and rho h^4/dt they are newtons and newton metres.
+    /// Writes, for body i, sum(phi grad(1-a)) to texel 2i of `target` and its moment to texel 2i + 1: in m/s
+    /// cells^2 and m/s cells^3. Times rho h^3/dt and rho h^4/dt they are newtons and newton metres.
     void draw(const Field<Cells4>& phi, const FaceFractions& a, const BodyUniforms& uniforms,
               const std::vector<BodyState>& states, const std::vector<Box>& boxes, const Texture& target);
 

@@ -7,7 +7,9 @@
 namespace eddy::gles {
 namespace {
 
-std::string ivec3_text(const glm::ivec3& v) { return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z); }
+std::string ivec3_text(const glm::ivec3& v) {
+    return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z);
+}
 
 /// What the passes between faces and cells are compiled with.
 Variant grid_variant(const FluidSetup& setup, bool cut, bool walls = false) {
@@ -25,11 +27,14 @@ Variant grid_variant(const FluidSetup& setup, bool cut, bool walls = false) {
 
 /// The three layers of face texels at the upper walls.
 Region upper_walls(const glm::ivec3& n) {
-    return Region({{{n.x, 0, 0}, n + 1}, {{0, n.y, 0}, {n.x, n.y + 1, n.z + 1}}, {{0, 0, n.z}, {n.x, n.y, n.z + 1}}});
+    return Region(
+        {{{n.x, 0, 0}, n + 1}, {{0, n.y, 0}, {n.x, n.y + 1, n.z + 1}}, {{0, 0, n.z}, {n.x, n.y, n.z + 1}}});
 }
 
 /// Texels of the results row: force and moment of each body, then the diagnosis.
-int results_width(const FluidSetup& setup) { return 2 * static_cast<int>(setup.bodies.size()) + 1; }
+int results_width(const FluidSetup& setup) {
+    return 2 * static_cast<int>(setup.bodies.size()) + 1;
+}
 
 bool measures(const FluidSetup& setup) {
     return std::any_of(setup.bodies.begin(), setup.bodies.end(),
@@ -45,20 +50,22 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
       phi_(gpu, setup_.cells, Format::RGBA32F),
       results_(gpu.textures().lease({results_width(setup_), 1}, Format::RGBA32F)),
       advect_(gpu, setup_.cells, setup_.cell_m, setup_.solver.advection),
-      fractions_(setup_.bodies.empty() ? std::optional<Fractions>()
-                                       : std::optional<Fractions>(std::in_place, gpu, multigrid_levels(setup_.cells),
-                                                                  setup_.bodies)),
+      fractions_(
+          setup_.bodies.empty()
+              ? std::optional<Fractions>()
+              : std::optional<Fractions>(std::in_place, gpu, multigrid_levels(setup_.cells), setup_.bodies)),
       body_uniforms_(setup_.bodies, setup_.cell_m),
       divergence_(gpu, "divergence", "gles/fluid/divergence.frag", Cells4::layout(setup_.cells),
                   grid_variant(setup_, false)),
       pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr),
-      project_(gpu, "project", "gles/fluid/project.frag", Faces::layout(setup_.cells), grid_variant(setup_, false)),
+      project_(gpu, "project", "gles/fluid/project.frag", Faces::layout(setup_.cells),
+               grid_variant(setup_, false)),
       project_walls_(gpu, "project at walls", "gles/fluid/project.frag", Faces::layout(setup_.cells),
                      grid_variant(setup_, fractions_.has_value(), true)),
       readback_(gpu, {results_width(setup_), 1}) {
     if (fractions_) {
-        divergence_cut_.emplace(gpu, "divergence cut", "gles/fluid/divergence.frag", Cells4::layout(setup_.cells),
-                                grid_variant(setup_, true));
+        divergence_cut_.emplace(gpu, "divergence cut", "gles/fluid/divergence.frag",
+                                Cells4::layout(setup_.cells), grid_variant(setup_, true));
         project_cut_.emplace(gpu, "project cut", "gles/fluid/project.frag", Faces::layout(setup_.cells),
                              grid_variant(setup_, true));
     }
@@ -67,7 +74,8 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
     if (setup_.smoke) advect_smoke_.emplace(gpu, setup_);
     for (const SourceSetup& source : setup_.sources)
         if (source.velocity_m_s && !drive_)
-            drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", Faces::layout(setup_.cells), Variant{});
+            drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", Faces::layout(setup_.cells),
+                           Variant{});
     reset();
 }
 
@@ -127,7 +135,8 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     time_s_ += dt_s;
     if (traction_) {
         Gpu::Stage stage(gpu_, "force");
-        traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_, *results_);  // F = int p grad(1 - a)
+        traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_,
+                        *results_);  // F = int p grad(1 - a)
     }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
@@ -183,7 +192,8 @@ Field<Faces> CutCellFluid::subtract_gradient(const Field<Faces>& u) {
     if (fractions_) {
         const FaceFractions& a = fractions_->level(0);
         inputs.insert(inputs.end(), {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
-        uniforms = {body_uniforms_.centre(), body_uniforms_.size(), body_uniforms_.velocity(), body_uniforms_.spin()};
+        uniforms = {body_uniforms_.centre(), body_uniforms_.size(), body_uniforms_.velocity(),
+                    body_uniforms_.spin()};
         project_cut_->draw(inputs, uniforms, {&next.texture()}, Region(boxes_));
     }
     project_walls_.draw(inputs, uniforms, {&next.texture()}, upper_walls(setup_.cells));
@@ -198,8 +208,8 @@ void CutCellFluid::diagnose(const Field<Cells4>& before) {
             variant.defines.emplace_back("SMOKE", "");
         }
         const glm::ivec2 columns(setup_.cells.x, setup_.cells.y);
-        diagnose_.emplace(gpu_, "diagnose", "gles/fluid/diagnose.frag", AtlasLayout{{columns.x, columns.y, 1}, 1},
-                          variant);
+        diagnose_.emplace(gpu_, "diagnose", "gles/fluid/diagnose.frag",
+                          AtlasLayout{{columns.x, columns.y, 1}, 1}, variant);
         reduce_diagnosis_.emplace(gpu_, "reduce diagnosis", columns, glm::ivec2(results_width(setup_), 1),
                                   "vec4(1.0, 0.0, 0.0, 1.0)");
     }
@@ -230,7 +240,8 @@ std::optional<StepResult> CutCellFluid::result(bool wait) {
     }
     if (asked.diagnosed) {
         const glm::dvec4 d(got->texels.back());
-        result.diagnostics = Diagnostics{d.w / h, d.x / h, 0.5 * setup_.density_kg_m3 * h * h * h * d.y, d.z * h * h * h};
+        result.diagnostics =
+            Diagnostics{d.w / h, d.x / h, 0.5 * setup_.density_kg_m3 * h * h * h * d.y, d.z * h * h * h};
     }
     return result;
 }

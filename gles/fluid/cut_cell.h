@@ -11,8 +11,8 @@
 
 namespace eddy::gles {
 
-/// Incompressible flow on a staggered grid with cut cells: what the exhibit runs. Which passes and textures exist is
-/// decided here, once, by the scene: no body, no fractions; no smoke, no smoke texture.
+/// Incompressible flow on a staggered grid with cut cells: what the exhibit runs. Which passes and textures
+/// exist is decided here, once, by the scene: no body, no fractions; no smoke, no smoke texture.
 class CutCellFluid final : public Fluid {
   public:
     CutCellFluid(Gpu& gpu, FluidSetup setup);

@@ -12,8 +12,9 @@ namespace eddy::gles {
 struct Diagnostics {
     double divergence_before_1_s = 0.0;  ///< max |div u| before the projection, the bodies' motion included
     double divergence_max_1_s = 0.0;     ///< the same after it
-    double kinetic_energy_j = 0.0;       ///< rho/2 sum |u|^2 h^3 (solid regions move with their body and are included)
-    double smoke_total = 0.0;            ///< sum of the smoke density over all cells times the cell volume [m^3]
+    double kinetic_energy_j =
+        0.0;                   ///< rho/2 sum |u|^2 h^3 (solid regions move with their body and are included)
+    double smoke_total = 0.0;  ///< sum of the smoke density over all cells times the cell volume [m^3]
 };
 
 struct StepResult {

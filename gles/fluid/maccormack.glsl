@@ -5,12 +5,12 @@
 
 // Least and greatest of the eight values around s (cells, centres at +1/2), all channels.
 void donors(sampler2D field, const Layout l, vec3 s, out vec4 least, out vec4 most) {
-    ivec3 c = ivec3(floor(clamp(s, vec3(0.5), vec3(l.size) - 0.5) - 0.5));
-    least = at(field, l, c);
-    most = least;
-    for (int i = 1; i < 8; ++i) {
-        vec4 v = at_clamped(field, l, c + ivec3(i & 1, (i >> 1) & 1, i >> 2));
-        least = min(least, v);
-        most = max(most, v);
-    }
+    ivec3 low = ivec3(clamp(s, vec3(0.5), vec3(l.size) - 0.5) - 0.5), high = min(low + 1, l.size - 1);
+    ivec2 below = texel_of(l, ivec3(0, 0, low.z)), above = texel_of(l, ivec3(0, 0, high.z));
+    vec4 a = texelFetch(field, below + low.xy, 0), b = texelFetch(field, below + ivec2(high.x, low.y), 0);
+    vec4 c = texelFetch(field, below + ivec2(low.x, high.y), 0), d = texelFetch(field, below + high.xy, 0);
+    vec4 e = texelFetch(field, above + low.xy, 0), f = texelFetch(field, above + ivec2(high.x, low.y), 0);
+    vec4 g = texelFetch(field, above + ivec2(low.x, high.y), 0), h = texelFetch(field, above + high.xy, 0);
+    least = min(min(min(a, b), min(c, d)), min(min(e, f), min(g, h)));
+    most = max(max(max(a, b), max(c, d)), max(max(e, f), max(g, h)));
 }

@@ -8,8 +8,8 @@
 namespace eddy::gles {
 namespace {
 
-constexpr int kCoarsest = 4;       // cells an axis at which coarsening stops
-constexpr int kSplitFrom = 24;     // cells an axis from which the plain variant is worth its extra draw
+constexpr int kCoarsest = 4;    // cells an axis at which coarsening stops
+constexpr int kSplitFrom = 24;  // cells an axis from which the plain variant is worth its extra draw
 constexpr int kCoarsestSweeps = 8;
 
 // The sweeps of one visit smooth what a coarser grid cannot hold: eigenvalues of D^-1 A from 1/3 up to 2.
@@ -17,7 +17,9 @@ const std::vector<float> kSmoother = chebyshev_weights(2, 1.0 / 3.0, 2.0);
 // On the coarsest grid they must solve: the slowest mode of 4 cells has (1 - cos(pi/4)) / 3 = 0.098.
 const std::vector<float> kSolver = chebyshev_weights(kCoarsestSweeps, 0.08, 2.0);
 
-std::string ivec3_text(const glm::ivec3& v) { return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z); }
+std::string ivec3_text(const glm::ivec3& v) {
+    return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z);
+}
 
 }  // namespace
 
@@ -29,7 +31,8 @@ std::vector<glm::ivec3> multigrid_levels(const glm::ivec3& n) {
 }
 
 std::vector<float> chebyshev_weights(int m, double low, double high) {
-    // Roots numbered so that each is followed by its counterpart: theta(2i-1), theta(2i) from order m/2 (m a power of 2).
+    // Roots numbered so that each is followed by its counterpart: theta(2i-1), theta(2i) from order m/2 (m a
+    // power of 2).
     std::vector<int> order{1};
     while (static_cast<int>(order.size()) < m) {
         const int twice = 2 * static_cast<int>(order.size());
@@ -42,13 +45,15 @@ std::vector<float> chebyshev_weights(int m, double low, double high) {
     }
     std::vector<float> weights;
     for (int k : order) {
-        const double root = std::cos(std::numbers::pi * (2.0 * k - 1.0) / (2.0 * static_cast<double>(order.size())));
+        const double root =
+            std::cos(std::numbers::pi * (2.0 * k - 1.0) / (2.0 * static_cast<double>(order.size())));
         weights.push_back(static_cast<float>(1.0 / (0.5 * (high + low) - 0.5 * (high - low) * root)));
     }
     return weights;
 }
 
-Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions) : gpu_(&gpu), fractions_(fractions) {
+Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions)
+    : gpu_(&gpu), fractions_(fractions) {
     const std::vector<glm::ivec3> grids = multigrid_levels(cells);
     for (std::size_t l = 0; l < grids.size(); ++l) {
         const glm::ivec3 n = grids[l];
@@ -66,11 +71,12 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
         const AtlasLayout here = Cells4::layout(grids[l]);
         level.sweep.emplace(make(gpu, "smooth", "gles/fluid/smooth.frag", l, here, {}));
         if (l > 0)
-            level.first_sweep.emplace(
-                make(gpu, "smooth from zero", "gles/fluid/smooth.frag", l, here, {.defines = {{"FROM_ZERO", ""}}}));
+            level.first_sweep.emplace(make(gpu, "smooth from zero", "gles/fluid/smooth.frag", l, here,
+                                           {.defines = {{"FROM_ZERO", ""}}}));
         if (l + 1 == grids.size()) break;
         const AtlasLayout coarse = Cells4::layout(grids[l + 1]);
-        level.restrict.emplace(make(gpu, "restrict residual", "gles/fluid/restrict_residual.frag", l, coarse, {}));
+        level.restrict.emplace(
+            make(gpu, "restrict residual", "gles/fluid/restrict_residual.frag", l, coarse, {}));
         Variant prolong;
         prolong.layouts = {{"COARSE", coarse}};
         prolong.defines = {{"COARSE_CELLS", ivec3_text(grids[l + 1])}};
@@ -85,11 +91,12 @@ Pressure::Split Pressure::make(Gpu& gpu, const char* name, const char* shader, s
     variant.layouts.emplace_back("PHI", Cells4::layout(n));
     variant.layouts.emplace_back("FRACTION", Faces4::layout(n));
     variant.defines.emplace_back("CELLS", ivec3_text(n));
-    const glm::vec3 covered = glm::vec3(levels_[0].cells) / std::exp2(static_cast<float>(l)) - glm::vec3(n - 1);
+    const glm::vec3 covered =
+        glm::vec3(levels_[0].cells) / std::exp2(static_cast<float>(l)) - glm::vec3(n - 1);
     Variant cut = variant;
     if (covered != glm::vec3(1.0f))
-        variant.defines.emplace_back("LAST_CELL",
-                                     fmt::format("vec3({:.8f}, {:.8f}, {:.8f})", covered.x, covered.y, covered.z));
+        variant.defines.emplace_back(
+            "LAST_CELL", fmt::format("vec3({:.8f}, {:.8f}, {:.8f})", covered.x, covered.y, covered.z));
     cut.defines.emplace_back("CUT", "");
     if (!fractions_) return {Pass(gpu, fmt::format("{} {}", name, l), shader, target, variant), {}};
     if (!levels_[l].split) return {Pass(gpu, fmt::format("{} {} cut", name, l), shader, target, cut), {}};
@@ -111,16 +118,17 @@ void Pressure::draw(Split& pass, std::size_t l, std::vector<Input> inputs,
 
 Field<Cells4> Pressure::sweep(std::size_t l, const Field<Cells4>& phi, const Field<Cells4>& b, float omega) {
     Field<Cells4> next(*gpu_, levels_[l].cells, Format::RGBA32F);
-    draw(*levels_[l].sweep, l, {{"phi", &phi.texture()}, {"b", &b.texture()}}, {{"omega", omega}}, next.texture(),
-         levels_[l].boxes);
+    draw(*levels_[l].sweep, l, {{"phi", &phi.texture()}, {"b", &b.texture()}}, {{"omega", omega}},
+         next.texture(), levels_[l].boxes);
     return next;
 }
 
 Field<Cells4> Pressure::sweep_from_zero(std::size_t l, const Field<Cells4>& b, float omega) {
     Field<Cells4> next(*gpu_, levels_[l].cells, Format::RGBA32F);
-    // The shader's phi is not read in this variant, but must be bound to something that is not being drawn into.
-    draw(*levels_[l].first_sweep, l, {{"phi", &b.texture()}, {"b", &b.texture()}}, {{"omega", omega}}, next.texture(),
-         levels_[l].boxes);
+    // The shader's phi is not read in this variant, but must be bound to something that is not being drawn
+    // into.
+    draw(*levels_[l].first_sweep, l, {{"phi", &b.texture()}, {"b", &b.texture()}}, {{"omega", omega}},
+         next.texture(), levels_[l].boxes);
     return next;
 }
 
@@ -133,7 +141,8 @@ void Pressure::sweep_near(Field<Cells4>& phi, const Field<Cells4>& b, const std:
     Split& sweep = *levels_[0].sweep;
     Pass& cut = sweep.cut ? *sweep.cut : sweep.plain;
     const FaceFractions& a = fractions_->level(0);
-    const std::vector<Input> fractions{{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}};
+    const std::vector<Input> fractions{
+        {"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}};
     std::vector<Input> inputs{{"phi", &phi.texture()}, {"b", &b.texture()}};
     inputs.insert(inputs.end(), fractions.begin(), fractions.end());
     cut.draw(inputs, {{"omega", kSmoother[0]}}, {&there.texture()}, Region::packed(wider));
@@ -146,11 +155,13 @@ Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<BodyMotion>&
     for (const BodyMotion& body : motions) {
         if (glm::length(body.moved) < 1e-3f) continue;
         const float reach = 3.0f * body.radius + 2.0f;
-        const Box box{glm::ivec3(glm::floor(body.centre - reach)), glm::ivec3(glm::ceil(body.centre + reach))};
+        const Box box{glm::ivec3(glm::floor(body.centre - reach)),
+                      glm::ivec3(glm::ceil(body.centre + reach))};
         const Region region = Region::packed({box.intersect({glm::ivec3(0), levels_[0].cells})});
-        follow_->draw({{"phi", &phi.texture()}},
-                      {{"centre", body.centre}, {"moved", body.moved}, {"inner", 1.5f * body.radius}, {"reach", reach}},
-                      {&moved.texture()}, region);
+        follow_->draw(
+            {{"phi", &phi.texture()}},
+            {{"centre", body.centre}, {"moved", body.moved}, {"inner", 1.5f * body.radius}, {"reach", reach}},
+            {&moved.texture()}, region);
         copy_back_->draw({{"field", &moved.texture()}}, {}, {&phi.texture()}, region);
     }
     return phi;
@@ -176,7 +187,8 @@ Field<Cells4> Pressure::cycle(std::size_t l, std::optional<Field<Cells4>> phi, c
     return p;
 }
 
-Field<Cells4> Pressure::solve(Field<Cells4> phi, const Field<Cells4>& b, int cycles, const std::vector<Box>& boxes) {
+Field<Cells4> Pressure::solve(Field<Cells4> phi, const Field<Cells4>& b, int cycles,
+                              const std::vector<Box>& boxes) {
     std::vector<Box> at_level = boxes;
     for (Level& level : levels_) {
         level.boxes = at_level;

@@ -6,8 +6,8 @@
 
 namespace eddy::gles {
 
-/// The grids of the multigrid solver for n cells: n, then halves (rounded up, so that any n works: the missing cells of
-/// an odd grid are closed) down to at most 4 cells an axis.
+/// The grids of the multigrid solver for n cells: n, then halves (rounded up, so that any n works: the
+/// missing cells of an odd grid are closed) down to at most 4 cells an axis.
 std::vector<glm::ivec3> multigrid_levels(const glm::ivec3& n);
 
 /// Where a body is and how far it came since the last step, in cells.
@@ -18,22 +18,24 @@ struct BodyMotion {
 
 /// Solves   sum_f a_f (phi_nb - phi) = b   in every cell, where phi = dt p / (rho h) [m/s].
 ///
-/// V-cycles with two Chebyshev-weighted Jacobi sweeps before and after; residuals are summed to coarse cells, coarse
-/// corrections come back trilinearly. Equations are written for a cell width of 1 on every level: fractions are averaged,
-/// and a coarse right-hand side is half the sum of eight fine residuals (four faces, twice the distance).
-/// Near bodies the sweeps read face fractions; elsewhere, one large draw without them.
+/// V-cycles with two Chebyshev-weighted Jacobi sweeps before and after; residuals are summed to coarse cells,
+/// coarse corrections come back trilinearly. Equations are written for a cell width of 1 on every level:
+/// fractions are averaged, and a coarse right-hand side is half the sum of eight fine residuals (four faces,
+/// twice the distance). Near bodies the sweeps read face fractions; elsewhere, one large draw without them.
 ///
-/// Two things make few cycles enough for a moving body, and cost next to nothing because they are drawn around it only:
-/// the last pressure is shifted along with the body before it serves as first guess (follow.frag), and each cycle ends
-/// with two more sweeps there, where nearly all of the residual is.
+/// Two things make few cycles enough for a moving body, and cost next to nothing because they are drawn
+/// around it only: the last pressure is shifted along with the body before it serves as first guess
+/// (follow.frag), and each cycle ends with two more sweeps there, where nearly all of the residual is.
 class Pressure {
   public:
     /// `fractions`: null when nothing solid is in the tank. Must outlive this.
     Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions);
 
-    /// Moves phi along with the bodies, to serve as first guess for where they are now; `boxes` as for solve().
+    /// Moves phi along with the bodies, to serve as first guess for where they are now; `boxes` as for
+    /// solve().
     Field<Cells4> follow(Field<Cells4> phi, const std::vector<BodyMotion>& motions);
-    /// A better phi for right-hand side b after this many V-cycles. `boxes`: cells whose fractions may not be 1.
+    /// A better phi for right-hand side b after this many V-cycles. `boxes`: cells whose fractions may not
+    /// be 1.
     Field<Cells4> solve(Field<Cells4> phi, const Field<Cells4>& b, int cycles, const std::vector<Box>& boxes);
 
   private:
@@ -44,15 +46,16 @@ class Pressure {
     };
     struct Level {
         glm::ivec3 cells;
-        bool split;  ///< a plain sweep of the whole grid and a cut one of the boxes over it cost less than one cut sweep
+        bool split;  ///< a plain sweep of the whole grid and a cut one of the boxes over it cost less than
+                     ///< one cut sweep
         std::optional<Split> first_sweep, sweep, restrict, prolong;
         std::vector<Box> boxes;
     };
 
     Split make(Gpu& gpu, const char* name, const char* shader, std::size_t level, const AtlasLayout& target,
                Variant variant);
-    void draw(Split& pass, std::size_t level, std::vector<Input> inputs,
-              const std::vector<Uniform>& uniforms, const Texture& out, const std::vector<Box>& boxes);
+    void draw(Split& pass, std::size_t level, std::vector<Input> inputs, const std::vector<Uniform>& uniforms,
+              const Texture& out, const std::vector<Box>& boxes);
     Field<Cells4> sweep(std::size_t l, const Field<Cells4>& phi, const Field<Cells4>& b, float omega);
     Field<Cells4> sweep_from_zero(std::size_t l, const Field<Cells4>& b, float omega);
     void sweep_near(Field<Cells4>& phi, const Field<Cells4>& b, const std::vector<Box>& boxes);
@@ -64,9 +67,9 @@ class Pressure {
     std::optional<Pass> follow_, copy_back_;
 };
 
-/// Relaxation weights of m weighted-Jacobi sweeps that together damp the eigenvalues [low, high] of D^-1 A as the
-/// Chebyshev polynomial of degree m does, in the order of Lebedev and Finogenov, which keeps every partial product small
-/// (natural order overflows 32-bit floats for m around 20).
+/// Relaxation weights of m weighted-Jacobi sweeps that together damp the eigenvalues [low, high] of D^-1 A as
+/// the Chebyshev polynomial of degree m does, in the order of Lebedev and Finogenov, which keeps every
+/// partial product small (natural order overflows 32-bit floats for m around 20).
 std::vector<float> chebyshev_weights(int m, double low, double high);
 
 }  // namespace eddy::gles

@@ -9,7 +9,8 @@
 
 namespace eddy::gles {
 
-// What a fluid is made of and what moves in it, in SI units and the Tank frame (hal/frames.h). Fixed while it runs.
+// What a fluid is made of and what moves in it, in SI units and the Tank frame (hal/frames.h). Fixed while it
+// runs.
 
 struct Sphere {
     double radius_m = 0.01;
@@ -26,8 +27,9 @@ struct BodySetup {
 struct SourceSetup {
     glm::dvec3 centre_m{0.0};
     double radius_m = 0.01;
-    std::optional<glm::dvec3> velocity_m_s{};  ///< the fluid inside is given this velocity before each projection
-    double smoke_per_s = 0.0;                ///< smoke density added per second
+    std::optional<glm::dvec3>
+        velocity_m_s{};        ///< the fluid inside is given this velocity before each projection
+    double smoke_per_s = 0.0;  ///< smoke density added per second
     double start_s = 0.0;
     double stop_s = std::numeric_limits<double>::infinity();
 };
@@ -41,9 +43,9 @@ enum class Method {
     Yang2009  ///< the paper: collocated grid, four cell types, Jacobi
 };
 enum class Advection {
-    SemiLagrangian,  ///< first order; one displacement per cell moves the three faces and is therefore not quite
-                     ///< mirror-symmetric; the cheapest
-    MacCormack       ///< second order with limiter, each face traced from its own centre
+    SemiLagrangian,  ///< first order; one displacement per cell moves the three faces and is therefore not
+                     ///< quite mirror-symmetric; the cheapest
+    MacCormack  ///< second order with limiter, each face traced from its own centre
 };
 
 struct SolverSetup {

@@ -6,7 +6,9 @@
 
 namespace eddy::gles {
 
-bool is_running(const SourceSetup& source, double time_s) { return time_s >= source.start_s && time_s < source.stop_s; }
+bool is_running(const SourceSetup& source, double time_s) {
+    return time_s >= source.start_s && time_s < source.stop_s;
+}
 
 glm::vec4 ball_cells(const SourceSetup& source, double cell_m) {
     return {glm::vec3(source.centre_m / cell_m), static_cast<float>(source.radius_m / cell_m)};
@@ -22,7 +24,8 @@ VelocityTransport::VelocityTransport(Gpu& gpu, const glm::ivec3& cells, double c
     : gpu_(&gpu),
       cell_m_(cell_m),
       forward_(gpu, "advect velocity",
-               scheme == Advection::MacCormack ? "gles/fluid/advect_faces.frag" : "gles/fluid/advect_velocity.frag",
+               scheme == Advection::MacCormack ? "gles/fluid/advect_faces.frag"
+                                               : "gles/fluid/advect_velocity.frag",
                Faces::layout(cells), {.layouts = {{"FACES", Faces::layout(cells)}}}) {
     if (scheme == Advection::MacCormack)
         correct_.emplace(gpu, "correct velocity", "gles/fluid/maccormack_velocity.frag", Faces::layout(cells),
@@ -35,7 +38,8 @@ Field<Faces> VelocityTransport::operator()(const Field<Faces>& u, double dt_s) {
     forward_.draw({{"velocity", &u.texture()}}, {dt_h}, {&forward.texture()});
     if (!correct_) return forward;
     Field<Faces> corrected(*gpu_, u.cells(), Format::RGBA32F);
-    correct_->draw({{"velocity", &u.texture()}, {"forward", &forward.texture()}}, {dt_h}, {&corrected.texture()});
+    correct_->draw({{"velocity", &u.texture()}, {"forward", &forward.texture()}}, {dt_h},
+                   {&corrected.texture()});
     return corrected;
 }
 
@@ -58,7 +62,8 @@ SmokeTransport::SmokeTransport(Gpu& gpu, const FluidSetup& setup)
     with_sources_.emplace(gpu, "smoke sources", last_shader, Cells::layout(setup.cells), variant);
 }
 
-Field<Cells> SmokeTransport::operator()(const Field<Cells>& smoke, const Field<Faces>& u, double time_s, double dt_s) {
+Field<Cells> SmokeTransport::operator()(const Field<Cells>& smoke, const Field<Faces>& u, double time_s,
+                                        double dt_s) {
     const Uniform dt_h{"dt_h", static_cast<float>(dt_s / setup_.cell_m)};
     Uniform remains{"remains", static_cast<float>(std::exp(-setup_.smoke->dissipation_1_s * dt_s))};
     std::vector<glm::vec3> gains;
@@ -71,7 +76,8 @@ Field<Cells> SmokeTransport::operator()(const Field<Cells>& smoke, const Field<F
         const std::vector<Input> inputs{{"velocity", &u.texture()}, {"smoke", &smoke.texture()}};
         forward_.draw(inputs, {dt_h, remains}, {&next.texture()});
         if (with_sources_)
-            with_sources_->draw(inputs, {dt_h, remains, {"source_ball", source_balls_}, {"source_gain", gains}},
+            with_sources_->draw(inputs,
+                                {dt_h, remains, {"source_ball", source_balls_}, {"source_gain", gains}},
                                 {&next.texture()}, Region(source_boxes_));
         return next;
     }

@@ -13,7 +13,8 @@ class Display {
     virtual unsigned egl_platform() const = 0;
     virtual void* native_display() const = 0;
     virtual void* native_window() const = 0;  ///< null: there is no screen, draw into textures
-    /// Puts the buffer that eglSwapBuffers just finished on the screen. GL thread; once per frame, after the swap.
+    /// Puts the buffer that eglSwapBuffers just finished on the screen. GL thread; once per frame, after the
+    /// swap.
     virtual void present() = 0;
     virtual std::string describe() const = 0;  ///< for the log
 };

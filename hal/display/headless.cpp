@@ -49,7 +49,8 @@ class HeadlessDisplay final : public Display {
     void* native_window() const override { return nullptr; }
     void present() override {}
     std::string describe() const override {
-        return device_ ? "no screen; GPU through EGL_EXT_platform_device" : "no screen; EGL_MESA_platform_surfaceless";
+        return device_ ? "no screen; GPU through EGL_EXT_platform_device"
+                       : "no screen; EGL_MESA_platform_surfaceless";
     }
 
   private:
@@ -58,6 +59,8 @@ class HeadlessDisplay final : public Display {
 
 }  // namespace
 
-std::unique_ptr<Display> make_headless_display() { return std::make_unique<HeadlessDisplay>(); }
+std::unique_ptr<Display> make_headless_display() {
+    return std::make_unique<HeadlessDisplay>();
+}
 
 }  // namespace eddy

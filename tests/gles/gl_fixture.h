@@ -9,7 +9,8 @@
 
 namespace eddy::gles {
 
-/// One GL context for the whole test program, on whatever this machine has: a GPU without a screen, or the rasteriser.
+/// One GL context for the whole test program, on whatever this machine has: a GPU without a screen, or the
+/// rasteriser.
 inline Gpu& shared_gpu() {
     struct Machine {
         std::unique_ptr<Display> display = make_headless_display();

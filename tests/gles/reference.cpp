@@ -30,13 +30,14 @@ double ReferenceFluid::fraction(const glm::dvec3& x) const {
     // The normal by central differences over 0.1 cell, as for shapes that have no closed form.
     glm::dvec3 g;
     for (int a = 0; a < 3; ++a)
-        g[a] = (glm::length(d + 0.05 * glm::dvec3(kAxis[a])) - glm::length(d - 0.05 * glm::dvec3(kAxis[a]))) / 0.1;
-    const glm::dvec3 m = glm::max(glm::abs(glm::normalize(g)), glm::dvec3(0.05));
+        g[a] = (glm::length(d + 0.05 * glm::dvec3(kAxis[a])) - glm::length(d - 0.05 * glm::dvec3(kAxis[a]))) /
+               0.1;
+    const glm::dvec3 m = glm::max(glm::abs(glm::normalize(g)), glm::dvec3(0.3));
     const auto cube = [](double v) { return v > 0.0 ? v * v * v : 0.0; };
     const double alpha = distance + 0.5 * (m.x + m.y + m.z);
     double volume = cube(alpha) - cube(alpha - m.x) - cube(alpha - m.y) - cube(alpha - m.z) +
-                          cube(alpha - m.x - m.y) + cube(alpha - m.y - m.z) + cube(alpha - m.z - m.x) -
-                          cube(alpha - m.x - m.y - m.z);
+                    cube(alpha - m.x - m.y) + cube(alpha - m.y - m.z) + cube(alpha - m.z - m.x) -
+                    cube(alpha - m.x - m.y - m.z);
     volume /= 6.0 * m.x * m.y * m.z;
     return volume < 1e-4 ? 0.0 : std::min(volume, 1.0);
 }
@@ -133,9 +134,12 @@ void ReferenceFluid::project(double tolerance) {
         for (int a = 0; a < 3; ++a) {
             const glm::ivec3 c(i, j, k), below = c - kAxis[a];
             double& v = projected[face(i, j, k)][a];
-            if (c[a] == 0) v = 0.0;
-            else if (open(a, i, j, k) > 0.0) v -= phi[cell(i, j, k)] - phi[cell(below.x, below.y, below.z)];
-            else v = solid_velocity(glm::dvec3(c) + 0.5 * (1.0 - glm::dvec3(kAxis[a])))[a];
+            if (c[a] == 0)
+                v = 0.0;
+            else if (open(a, i, j, k) > 0.0)
+                v -= phi[cell(i, j, k)] - phi[cell(below.x, below.y, below.z)];
+            else
+                v = solid_velocity(glm::dvec3(c) + 0.5 * (1.0 - glm::dvec3(kAxis[a])))[a];
         }
     });
     // The layers at the upper walls: no flow through them, and copies of the neighbour along them.

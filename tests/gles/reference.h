@@ -4,14 +4,14 @@
 
 namespace eddy {
 
-/// The same method as gles/fluid in plain loops and doubles, one sphere in a closed box; everything in units of cells,
-/// h = 1, rho = 1. What the shaders are compared with.
+/// The same method as gles/fluid in plain loops and doubles, one sphere in a closed box; everything in units
+/// of cells, h = 1, rho = 1. What the shaders are compared with.
 struct ReferenceFluid {
     glm::ivec3 n;
     glm::dvec3 centre{0.0}, velocity{0.0}, spin{0.0};  // of the sphere
     double radius = 0.0;                               // 0: no sphere
-    std::vector<glm::dvec3> u;                         // (nx+1)(ny+1)(nz+1), component c on the lower face of its cell
-    std::vector<double> phi;                           // nx ny nz
+    std::vector<glm::dvec3> u;  // (nx+1)(ny+1)(nz+1), component c on the lower face of its cell
+    std::vector<double> phi;    // nx ny nz
 
     explicit ReferenceFluid(const glm::ivec3& cells);
 

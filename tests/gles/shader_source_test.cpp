@@ -57,7 +57,7 @@ TEST(ShaderSource, KeepsTheLineNumbersOfEveryFile) {
             for (const EmbeddedFile& f : kShaders)
                 if (f.name == source.files.at(number)) file = f.text;
             const std::string_view before = file.substr(0, file.find("void main() {"));
-            EXPECT_EQ(line, 1 + std::count(before.begin(), before.end(), '\n')) << source.files.at(number);
+            EXPECT_EQ(line % 100'000, 1 + std::count(before.begin(), before.end(), '\n')) << source.files.at(number);
             seen_main.push_back(source.files.at(number));
         }
         ++line;
@@ -93,6 +93,8 @@ TEST(ShaderLog, OfEachDriverIsTurnedIntoPathsAndLines) {
          "ERROR: gles/body/fraction.glsl:7: 'y' : undeclared identifier"},
         {"WARNING: 0:3: old\nERROR: 1:4: new",
          "WARNING: gles/atlas.glsl:3: old\nERROR: gles/body/fractions.frag:4: new"},
+        // Mesa again, which forgets the file's number but not the line's
+        {"0:200007(3): error: `z' undeclared", "gles/body/fraction.glsl:7(3): error: `z' undeclared"},
         // Something else is left as it is.
         {"error: too many instructions", "error: too many instructions"},
         {"9:12(5): error: no such file", "9:12(5): error: no such file"},

@@ -24,7 +24,9 @@ FluidSetup unit_setup(const glm::ivec3& n, int cycles) {
 
 std::vector<glm::vec3> random_velocity(const glm::ivec3& n, unsigned seed) {
     std::mt19937 random(seed);
-    const auto number = [&] { return 2.0f * static_cast<float>(random()) / static_cast<float>(random.max()) - 1.0f; };
+    const auto number = [&] {
+        return 2.0f * static_cast<float>(random()) / static_cast<float>(random.max()) - 1.0f;
+    };
     std::vector<glm::vec3> u(static_cast<std::size_t>((n.x + 1) * (n.y + 1) * (n.z + 1)));
     for (glm::vec3& v : u) v = {number(), number(), number()};
     return u;
@@ -52,7 +54,8 @@ void expect_same_as_reference(Gpu& gpu, bool filters) {
     for (std::size_t i = 0; i < u0.size(); ++i) reference.u[i] = glm::dvec3(u0[i]);
 
     const double dt = 0.4;
-    BodyState body{.centre_m = {6.1, 5.3, 4.8}, .velocity_m_s = {0.5, -0.2, 0.3}, .spin_rad_s = {0.1, 0.2, -0.3}};
+    BodyState body{
+        .centre_m = {6.1, 5.3, 4.8}, .velocity_m_s = {0.5, -0.2, 0.3}, .spin_rad_s = {0.1, 0.2, -0.3}};
     for (int step = 0; step < 2; ++step) {
         body.centre_m += dt * body.velocity_m_s;
         fluid->step(dt, {body}, true);
@@ -64,15 +67,16 @@ void expect_same_as_reference(Gpu& gpu, bool filters) {
 
         const StepResult result = *fluid->result(true);
         const std::vector<glm::vec3> u = fluid->velocity();
-        // Weighted by the open share of the face: through a sliver of 1e-3 the velocity hangs on rounding in the share
-        // (about 1e-5, from the quotient in fraction.glsl), but hardly anything flows.
+        // Weighted by the open share of the face: through a sliver of 1e-3 the velocity hangs on rounding in
+        // the share (about 1e-5, from the quotient in fraction.glsl), but hardly anything flows.
         double worst = 0.0;
         for (int k = 0; k <= n.z; ++k)
             for (int j = 0; j <= n.y; ++j)
                 for (int i = 0; i <= n.x; ++i)
                     for (int c = 0; c < 3; ++c) {
                         const std::size_t at = reference.face(i, j, k);
-                        const double open = reference.open(c, i, j, k), difference = u[at][c] - reference.u[at][c];
+                        const double open = reference.open(c, i, j, k),
+                                     difference = u[at][c] - reference.u[at][c];
                         worst = std::max(worst, std::abs(difference) * (open > 0.0 ? open : 1.0));
                     }
         EXPECT_LT(worst, 2e-4) << "velocity, step " << step;
@@ -90,7 +94,9 @@ TEST_F(CutCell, DoesWhatThePlainLoopDoesWithHardwareFiltering) {
     expect_same_as_reference(gpu, true);
 }
 
-TEST_F(CutCell, DoesWhatThePlainLoopDoesWithTexelFetches) { expect_same_as_reference(gpu, false); }
+TEST_F(CutCell, DoesWhatThePlainLoopDoesWithTexelFetches) {
+    expect_same_as_reference(gpu, false);
+}
 
 TEST_F(CutCell, ProjectionLeavesNoDivergenceNeverAddsEnergyAndIsDoneInOne) {
     // Validation case A6, on grids odd and even.
@@ -117,7 +123,8 @@ TEST_F(CutCell, ACheckerboardDoesNotSurviveTheProjection) {
     for (int k = 0; k <= 16; ++k)
         for (int j = 0; j <= 16; ++j)
             for (int i = 0; i <= 16; ++i)
-                u[static_cast<std::size_t>((k * 17 + j) * 17 + i)] = glm::vec3((i + j + k) % 2 ? 1.0f : -1.0f);
+                u[static_cast<std::size_t>((k * 17 + j) * 17 + i)] =
+                    glm::vec3((i + j + k) % 2 ? 1.0f : -1.0f);
     fluid->set_velocity(u);
     fluid->step(1e-12, {}, true);
     const Diagnostics d = *fluid->result(true)->diagnostics;
@@ -135,7 +142,8 @@ TEST_F(CutCell, RestStaysRestWithAFixedBodyInside) {
 }
 
 TEST_F(CutCell, FluidMomentumIsMinusThatOfTheBodysVolumeInAClosedBox) {
-    // Validation identity B8.1: the mixed flux a u + (1 - a) u_solid sums to zero over the box, whatever was done before.
+    // Validation identity B8.1: the mixed flux a u + (1 - a) u_solid sums to zero over the box, whatever was
+    // done before.
     for (const glm::ivec3 n : {glm::ivec3(24), glm::ivec3(25, 21, 27)}) {
         FluidSetup setup = unit_setup(n, 14);
         setup.bodies = {BodySetup{Sphere{4.0}}};
@@ -167,7 +175,9 @@ TEST_F(CutCell, TwoRunsAreTheSameToTheLastBit) {
         setup.bodies = {BodySetup{Sphere{3.0}}};
         const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
         for (int step = 1; step <= 10; ++step)
-            fluid->step(0.5, {BodyState{.centre_m = {8.0 + 0.2 * step, 8.0, 10.0}, .velocity_m_s = {0.4, 0.0, 0.0}}}, false);
+            fluid->step(
+                0.5, {BodyState{.centre_m = {8.0 + 0.2 * step, 8.0, 10.0}, .velocity_m_s = {0.4, 0.0, 0.0}}},
+                false);
         return fluid->velocity();
     };
     EXPECT_EQ(run(), run());
@@ -177,12 +187,16 @@ TEST_F(CutCell, ResetGoesBackToTheStartExactly) {
     FluidSetup setup = unit_setup({16, 16, 16}, 2);
     setup.bodies = {BodySetup{Sphere{3.0}}};
     setup.smoke = SmokeSetup{};
-    setup.sources = {SourceSetup{.centre_m = {4.0, 4.0, 4.0}, .radius_m = 2.0, .velocity_m_s = glm::dvec3(1.0, 0.5, 0.2),
+    setup.sources = {SourceSetup{.centre_m = {4.0, 4.0, 4.0},
+                                 .radius_m = 2.0,
+                                 .velocity_m_s = glm::dvec3(1.0, 0.5, 0.2),
                                  .smoke_per_s = 1.0}};
     const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
     const auto run = [&] {
         for (int step = 1; step <= 5; ++step)
-            fluid->step(0.5, {BodyState{.centre_m = {8.0 + 0.2 * step, 8.0, 9.0}, .velocity_m_s = {0.4, 0.0, 0.0}}}, false);
+            fluid->step(
+                0.5, {BodyState{.centre_m = {8.0 + 0.2 * step, 8.0, 9.0}, .velocity_m_s = {0.4, 0.0, 0.0}}},
+                false);
         return fluid->velocity();
     };
     const std::vector<glm::vec3> first = run();
@@ -210,10 +224,13 @@ TEST_F(CutCell, EvenSmokeStaysEvenWhileABodyMovesThroughIt) {
         setup.bodies = {BodySetup{Sphere{3.0}}};
         setup.smoke = SmokeSetup{};
         setup.solver.advection = scheme;
-        setup.sources = {SourceSetup{.centre_m = {8.0, 8.0, 8.0}, .radius_m = 40.0, .smoke_per_s = 1.0, .stop_s = 0.9}};
+        setup.sources = {
+            SourceSetup{.centre_m = {8.0, 8.0, 8.0}, .radius_m = 40.0, .smoke_per_s = 1.0, .stop_s = 0.9}};
         const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
         for (int step = 1; step <= 30; ++step)
-            fluid->step(1.0, {BodyState{.centre_m = {4.0 + 0.25 * step, 8.0, 8.0}, .velocity_m_s = {0.25, 0.0, 0.0}}}, true);
+            fluid->step(
+                1.0, {BodyState{.centre_m = {4.0 + 0.25 * step, 8.0, 8.0}, .velocity_m_s = {0.25, 0.0, 0.0}}},
+                true);
         std::optional<StepResult> last;
         while (auto result = fluid->result(true)) last = result;
         EXPECT_NEAR(last->diagnostics->smoke_total, 16.0 * 16.0 * 16.0, 16.0 * 16.0 * 16.0 * 1e-6);

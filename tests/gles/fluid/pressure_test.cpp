@@ -18,8 +18,9 @@ Field<Cells4> upload(Gpu& gpu, const glm::ivec3& n, const std::vector<float>& va
     return field;
 }
 
-/// cos(pi kx (i + 1/2) / nx) cos(...) cos(...): an exact eigenvector of the 7-point Laplacian with closed walls; its
-/// eigenvalue is -2 sum(1 - cos(pi k / n)) (validation case A5, with the discretisation error taken out).
+/// cos(pi kx (i + 1/2) / nx) cos(...) cos(...): an exact eigenvector of the 7-point Laplacian with closed
+/// walls; its eigenvalue is -2 sum(1 - cos(pi k / n)) (validation case A5, with the discretisation error
+/// taken out).
 struct Mode {
     glm::ivec3 n, k;
     double eigenvalue() const {
@@ -32,9 +33,10 @@ struct Mode {
         for (int z = 0; z < n.z; ++z)
             for (int y = 0; y < n.y; ++y)
                 for (int x = 0; x < n.x; ++x)
-                    v.push_back(static_cast<float>(factor * std::cos(std::numbers::pi * k.x * (x + 0.5) / n.x) *
-                                                   std::cos(std::numbers::pi * k.y * (y + 0.5) / n.y) *
-                                                   std::cos(std::numbers::pi * k.z * (z + 0.5) / n.z)));
+                    v.push_back(
+                        static_cast<float>(factor * std::cos(std::numbers::pi * k.x * (x + 0.5) / n.x) *
+                                           std::cos(std::numbers::pi * k.y * (y + 0.5) / n.y) *
+                                           std::cos(std::numbers::pi * k.z * (z + 0.5) / n.z)));
         return v;
     }
 };
@@ -68,14 +70,17 @@ TEST_F(PressureSolve, EachCycleCutsTheResidualToASixthOrLess) {
         std::vector<float> noise;
         double mean = 0.0;
         for (int i = 0; i < n.x * n.y * n.z; ++i)
-            mean += noise.emplace_back(static_cast<float>(random()) / static_cast<float>(random.max()) - 0.5f);
+            mean +=
+                noise.emplace_back(static_cast<float>(random()) / static_cast<float>(random.max()) - 0.5f);
         for (float& v : noise) v -= static_cast<float>(mean / static_cast<double>(noise.size()));
         const Field<Cells4> b = upload(gpu, n, noise);
         Pressure pressure(gpu, n, nullptr);
         const auto residual = [&](const Field<Cells4>& phi) {
             const std::vector<float> p = unpack_four(phi.texture().download(), phi.layout(), n);
             double sum = 0.0;
-            const auto at = [&](int x, int y, int z) { return p[static_cast<std::size_t>((z * n.y + y) * n.x + x)]; };
+            const auto at = [&](int x, int y, int z) {
+                return p[static_cast<std::size_t>((z * n.y + y) * n.x + x)];
+            };
             for (int z = 0; z < n.z; ++z)
                 for (int y = 0; y < n.y; ++y)
                     for (int x = 0; x < n.x; ++x) {
@@ -118,7 +123,8 @@ TEST_F(PressureSolve, ARightHandSideWithAMeanGivesTheSameGradients) {
 }
 
 TEST(Chebyshev, WeightsInLebedevOrderDampTheWholeIntervalAndNeverOvershoot) {
-    // The polynomial prod(1 - w lambda) is at most 1/T_m(theta) on [low, high], and no partial product exceeds 1 by much.
+    // The polynomial prod(1 - w lambda) is at most 1/T_m(theta) on [low, high], and no partial product
+    // exceeds 1 by much.
     for (const int m : {2, 4, 8, 16}) {
         const double low = 0.08, high = 2.0;
         const std::vector<float> weights = chebyshev_weights(m, low, high);
