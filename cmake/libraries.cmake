@@ -1,4 +1,4 @@
-# The libraries Eddy stands on. Everything but the driver stack is linked statically (see tests/end_to_end/needed_test.sh).
+# The libraries Eddy stands on. Everything but the driver stack is linked statically (see tests/end_to_end/needed_test.cpp).
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 

@@ -40,6 +40,13 @@ std::vector<Point> read_points(const std::filesystem::path& csv) {
     return points;
 }
 
+/// In single quotes as gnuplot reads them: a quote is written twice.
+std::string quoted(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
+    return result + "'";
+}
+
 int run_gnuplot(const std::filesystem::path& script) {
     std::string program = "gnuplot", argument = script.string();
     char* arguments[] = {program.data(), argument.data(), nullptr};
@@ -56,28 +63,42 @@ std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& fo
     const std::vector<Point> points = read_points(force_csv);
     double strongest = 0.0;
     for (const Point& p : points) strongest = std::max(strongest, p.force());
-    // The longest arrow is 30 mm.
-    const double mm_per_n = strongest > 0.0 ? 30.0 / strongest : 0.0;
+    // The longest arrow is 25 mm.
+    const double mm_per_n = strongest > 0.0 ? 25.0 / strongest : 0.0;
 
-    // gnuplot's third axis points up, the Device frame's second does: plot x, z towards the visitor, y.
+    // gnuplot's third axis points up, the Device frame's second does: plot x, z towards the visitor, y. The axes form a
+    // cube just large enough for the path and its arrows.
     std::string data;
-    for (const Point& p : points)
-        data += fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}\n", p.x, p.z, p.y, mm_per_n * p.fx,
-                            mm_per_n * p.fz, mm_per_n * p.fy);
+    double low[3] = {1e9, 1e9, 1e9}, high[3] = {-1e9, -1e9, -1e9};
+    for (const Point& p : points) {
+        const double from[3] = {p.x, p.z, p.y};
+        const double arrow[3] = {mm_per_n * p.fx, mm_per_n * p.fz, mm_per_n * p.fy};
+        for (int a = 0; a < 3; ++a) {
+            low[a] = std::min({low[a], from[a], from[a] + arrow[a]});
+            high[a] = std::max({high[a], from[a], from[a] + arrow[a]});
+        }
+        data += fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}\n", from[0], from[1], from[2], arrow[0], arrow[1],
+                            arrow[2]);
+    }
+    const double half = 2.0 + 0.5 * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    std::string ranges;
+    for (int a = 0; a < 3; ++a) {
+        const double middle = 0.5 * (low[a] + high[a]);
+        ranges += fmt::format("set {}range [{:.1f}:{:.1f}]\n", "xyz"[a], middle - half, middle + half);
+    }
     const std::filesystem::path folder = force_csv.parent_path(), script = folder / "motion.gnuplot",
                                 picture = folder / "motion.png";
     replace_text_file(
         script, fmt::format("set terminal pngcairo size 1000,800\n"
-                            "set output '{}'\n"
+                            "set output {}\n"
                             "$path << EOD\n{}EOD\n"
                             "set title 'Hand (blue) and force on it (red; the longest arrow is {:.2f} N)'\n"
                             "set xlabel 'x right [mm]'\nset ylabel 'z to the visitor [mm]'\n"
                             "set zlabel 'y up [mm]' rotate parallel\n"
-                            "set view 70, 25\nset xyplane at -60\nset grid\nset key off\n"
-                            "set xrange [-80:80]\nset yrange [-80:80]\nset zrange [-60:60]\n"
+                            "set view 70, 25\nset view equal xyz\nset xyplane relative 0\nset grid\nset key off\n{}"
                             "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"
                             "      $path using 1:2:3 with points pt 7 ps 0.5 lc rgb '#2050c0'\n",
-                            picture.string(), data, strongest));
+                            quoted(picture.string()), data, strongest, ranges));
     if (points.empty()) return std::nullopt;
     if (const int status = run_gnuplot(script); status != 0) {
         fmt::print(

@@ -56,7 +56,7 @@ struct CommandLine {
     BenchOptions bench;
     std::string check_file, print_scene;
     std::vector<std::string> print_set;
-    bool print_origin = false;
+    bool print_origin = false, print_keys = false;
 
     CommandLine() {
         app.set_version_flag("--version", std::string("eddy ") + EDDY_VERSION);
@@ -80,6 +80,7 @@ struct CommandLine {
                           "a scene (shipped name or file); without: the exhibit's settings");
         add_set(*print, print_set);
         print->add_flag("--origin", print_origin, "say for each value where it was written");
+        print->add_flag("--keys", print_keys, "list every key a scene may have, with range, default and meaning");
     }
 
     void add_set(CLI::App& verb, std::vector<std::string>& set) {
@@ -104,7 +105,9 @@ struct CommandLine {
         verb->add_option("--motion-axes", run.motion_axes,
                          "device x right, y up, z to the person, in the recording's axes (for z up: x,z,-y)")
             ->capture_default_str();
-        verb->add_option("--seed", run.seed, "of the emulated person")->capture_default_str();
+        verb->add_option("--seed", run.seed, "of the emulated person")
+            ->check(number_from(0, 1e18))
+            ->capture_default_str();
         verb->add_option("--seconds", run.seconds, "stop after this long")
             ->check(number_from(kShortestS, kLongestS));
         verb->add_option("--record", run.record, "keep pictures, force.csv and motion.png in this folder");
@@ -148,12 +151,23 @@ struct CommandLine {
         verb->add_option("--json", bench.json, "also write the figures to this file");
     }
 
+    /// CLI11 would call an unknown verb a missing one.
+    void require_verb(int argc, char** argv) const {
+        if (argc < 2 || argv[1][0] == '-') return;
+        std::string verbs;
+        for (const CLI::App* verb : app.get_subcommands({})) {
+            if (verb->get_name() == argv[1]) return;
+            verbs += fmt::format("{}{}", verbs.empty() ? "" : ", ", verb->get_name());
+        }
+        throw InputError(fmt::format("eddy: there is no verb '{}'; there are {}", argv[1], verbs));
+    }
+
     int act() {
         if (app.got_subcommand("run")) return eddy::run(run);
         if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
         if (app.got_subcommand("bench")) return eddy::bench(bench);
         if (app.got_subcommand("check-config")) return check_config(check_file);
-        return print_config(print_scene, print_set, print_origin);
+        return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);
     }
 };
 
@@ -163,6 +177,7 @@ struct CommandLine {
 int main(int argc, char** argv) {
     eddy::CommandLine line;
     try {
+        line.require_verb(argc, argv);
         line.app.parse(argc, argv);
         return line.act();
     } catch (const CLI::ParseError& e) {

@@ -14,6 +14,11 @@ namespace eddy {
 
 Recorder::Recorder(std::filesystem::path folder) : folder_(std::move(folder)) {
     make_folder(folder_);
+    // Pictures of an earlier, longer run must not stay among the new ones.
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("frame_") && name.ends_with(".png")) std::filesystem::remove(entry.path());
+    }
     force_.open(folder_ / "force.csv");
     if (!force_)
         throw std::runtime_error(

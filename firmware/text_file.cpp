@@ -7,18 +7,22 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace eddy {
 
 std::string read_text_file(const std::filesystem::path& file) {
+    const auto fail = [&](int reason) {
+        throw std::runtime_error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(reason)));
+    };
+    // A folder opens like a file and fails only when it is read.
+    if (std::error_code error; std::filesystem::is_directory(file, error)) fail(EISDIR);
     std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    if (!in || std::filesystem::is_directory(file) || !(text << in.rdbuf()))
-        throw std::runtime_error(
-            fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno ? errno : EISDIR)));
-    return text.str();
+    if (!in) fail(errno);
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    if (in.bad()) fail(EIO);
+    return text;
 }
 
 void replace_text_file(const std::filesystem::path& file, std::string_view text) {

@@ -45,4 +45,9 @@ int print_config(const std::string& scene, const std::vector<std::string>& set, 
     return 0;
 }
 
+int print_schema() {
+    fmt::print("{}", schema_reference());
+    return 0;
+}
+
 }  // namespace eddy

@@ -51,5 +51,7 @@ int run(const RunOptions& options);
 
 int check_config(const std::string& file);
 int print_config(const std::string& scene, const std::vector<std::string>& set, bool origin);
+/// The reference of scene files as markdown (docs/scene.md).
+int print_schema();
 
 }  // namespace eddy

@@ -56,7 +56,7 @@ TEST(Plan, WithoutABodyHasNoFractionsAndNoForce) {
     const ScratchFolder folder;
     const std::string scene = folder.write("empty.toml", "[tank]\ncells = [16, 16, 16]\n");
     const PrintedPlan empty = plan_of({scene}), rest = plan_of({"rest", "--set", kTiny});
-    for (const std::string word : {"fractions", "traction", "voxelise", "force", "follow", "ax"}) {
+    for (const std::string word : {"fractions", "traction", "voxelise", "force", "ax"}) {
         EXPECT_TRUE(rest.names(word)) << word << " is not how the plan calls it:\n" << rest.text;
         EXPECT_FALSE(empty.names(word)) << word << "\n" << empty.text;
     }

@@ -4,9 +4,11 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <chrono>
 #include <csignal>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 extern char** environ;
 
@@ -39,15 +41,20 @@ void Program::send(int signal) const {
 
 Ended Program::wait() {
     int status = 0;
-    ::waitpid(pid_, &status, 0);
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (::waitpid(pid_, &status, WNOHANG) == 0) {
+        if (std::chrono::steady_clock::now() > patience) ::kill(pid_, SIGKILL);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
     pid_ = 0;
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_all(output_ / "out"),
             read_all(output_ / "err")};
 }
 
 std::vector<std::string> eddy_command(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), EDDY_BINARY);
-    return arguments;
+    std::vector<std::string> command{EDDY_BINARY};
+    for (std::string& argument : arguments) command.push_back(std::move(argument));
+    return command;
 }
 
 Ended eddy(std::vector<std::string> arguments) {

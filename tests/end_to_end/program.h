@@ -24,6 +24,7 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     void send(int signal) const;
+    /// A program that has not ended after a minute is killed.
     Ended wait();
 
   private:

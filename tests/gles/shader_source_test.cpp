@@ -57,7 +57,8 @@ TEST(ShaderSource, KeepsTheLineNumbersOfEveryFile) {
             for (const EmbeddedFile& f : kShaders)
                 if (f.name == source.files.at(number)) file = f.text;
             const std::string_view before = file.substr(0, file.find("void main() {"));
-            EXPECT_EQ(line % 100'000, 1 + std::count(before.begin(), before.end(), '\n')) << source.files.at(number);
+            EXPECT_EQ(line % 100'000, 1 + std::count(before.begin(), before.end(), '\n'))
+                << source.files.at(number);
             seen_main.push_back(source.files.at(number));
         }
         ++line;
