@@ -1,5 +1,6 @@
 #include "firmware/body_motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

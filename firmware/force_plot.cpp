@@ -66,8 +66,8 @@ std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& fo
     // The longest arrow is 25 mm.
     const double mm_per_n = strongest > 0.0 ? 25.0 / strongest : 0.0;
 
-    // gnuplot's third axis points up, the Device frame's second does: plot x, z towards the visitor, y. The axes form a
-    // cube just large enough for the path and its arrows.
+    // gnuplot's third axis points up, the Device frame's second does: plot x, z towards the visitor, y. The
+    // axes form a cube just large enough for the path and its arrows.
     std::string data;
     double low[3] = {1e9, 1e9, 1e9}, high[3] = {-1e9, -1e9, -1e9};
     for (const Point& p : points) {
@@ -77,8 +77,8 @@ std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& fo
             low[a] = std::min({low[a], from[a], from[a] + arrow[a]});
             high[a] = std::max({high[a], from[a], from[a] + arrow[a]});
         }
-        data += fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}\n", from[0], from[1], from[2], arrow[0], arrow[1],
-                            arrow[2]);
+        data += fmt::format("{:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.3f}\n", from[0], from[1], from[2],
+                            arrow[0], arrow[1], arrow[2]);
     }
     const double half = 2.0 + 0.5 * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
     std::string ranges;
@@ -89,16 +89,17 @@ std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& fo
     const std::filesystem::path folder = force_csv.parent_path(), script = folder / "motion.gnuplot",
                                 picture = folder / "motion.png";
     replace_text_file(
-        script, fmt::format("set terminal pngcairo size 1000,800\n"
-                            "set output {}\n"
-                            "$path << EOD\n{}EOD\n"
-                            "set title 'Hand (blue) and force on it (red; the longest arrow is {:.2f} N)'\n"
-                            "set xlabel 'x right [mm]'\nset ylabel 'z to the visitor [mm]'\n"
-                            "set zlabel 'y up [mm]' rotate parallel\n"
-                            "set view 70, 25\nset view equal xyz\nset xyplane relative 0\nset grid\nset key off\n{}"
-                            "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"
-                            "      $path using 1:2:3 with points pt 7 ps 0.5 lc rgb '#2050c0'\n",
-                            quoted(picture.string()), data, strongest, ranges));
+        script,
+        fmt::format("set terminal pngcairo size 1000,800\n"
+                    "set output {}\n"
+                    "$path << EOD\n{}EOD\n"
+                    "set title 'Hand (blue) and force on it (red; the longest arrow is {:.2f} N)'\n"
+                    "set xlabel 'x right [mm]'\nset ylabel 'z to the visitor [mm]'\n"
+                    "set zlabel 'y up [mm]' rotate parallel\n"
+                    "set view 70, 25\nset view equal xyz\nset xyplane relative 0\nset grid\nset key off\n{}"
+                    "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"
+                    "      $path using 1:2:3 with points pt 7 ps 0.5 lc rgb '#2050c0'\n",
+                    quoted(picture.string()), data, strongest, ranges));
     if (points.empty()) return std::nullopt;
     if (const int status = run_gnuplot(script); status != 0) {
         fmt::print(

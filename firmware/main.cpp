@@ -80,7 +80,8 @@ struct CommandLine {
                           "a scene (shipped name or file); without: the exhibit's settings");
         add_set(*print, print_set);
         print->add_flag("--origin", print_origin, "say for each value where it was written");
-        print->add_flag("--keys", print_keys, "list every key a scene may have, with range, default and meaning");
+        print->add_flag("--keys", print_keys,
+                        "list every key a scene may have, with range, default and meaning");
     }
 
     void add_set(CLI::App& verb, std::vector<std::string>& set) {

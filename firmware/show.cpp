@@ -1,5 +1,7 @@
 #include "firmware/show.h"
 
+#include <algorithm>
+
 #include "firmware/fluid_setup.h"
 
 namespace eddy {

@@ -1,5 +1,7 @@
 #include "gles/fluid/cut_cell.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "gles/grid_io.h"

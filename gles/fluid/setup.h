@@ -45,7 +45,7 @@ enum class Method {
 enum class Advection {
     SemiLagrangian,  ///< first order; one displacement per cell moves the three faces and is therefore not
                      ///< quite mirror-symmetric; the cheapest
-    MacCormack  ///< second order with limiter, each face traced from its own centre
+    MacCormack       ///< second order with limiter, each face traced from its own centre
 };
 
 struct SolverSetup {

@@ -1,5 +1,7 @@
 #include "gles/render/renderer.h"
 
+#include <algorithm>
+
 #include <GLES3/gl3.h>
 #include <fmt/format.h>
 

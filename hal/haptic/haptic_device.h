@@ -15,36 +15,39 @@ struct HandleReading {
     Instant taken_at{0};         ///< when the last byte of the reply arrived
 };
 
-/// Absent: not found. Booting: found, answering no frames yet. Loading: firmware upload. Homing: running, positions not
-/// yet absolute. Ready: positions are true and forces are obeyed. Fault: given up until the device comes back.
+/// Absent: not found. Booting: found, answering no frames yet. Loading: firmware upload. Homing: running,
+/// positions not yet absolute. Ready: positions are true and forces are obeyed. Fault: given up until the
+/// device comes back.
 enum class HapticState { Absent, Booting, Loading, Homing, Ready, Fault };
 const char* to_string(HapticState state);
 
 /// What went wrong since start, one counter for each kind of trouble. Never reset while running.
 struct HapticCounters {
-    std::uint64_t exchanges = 0;        ///< good replies
-    std::uint64_t timeouts = 0;         ///< no reply in time
-    std::uint64_t bad_bytes = 0;        ///< bytes dropped to find the frame again
-    std::uint64_t implausible = 0;      ///< encoder jumps faster than a hand
-    std::uint64_t unsolved = 0;         ///< poses the forward kinematics could not reach
-    std::uint64_t saturated = 0;        ///< commands scaled down to the motors' range
-    std::uint64_t rehomed = 0;          ///< times the homed bits were lost
-    std::uint64_t lost = 0;             ///< times the device went away
+    std::uint64_t exchanges = 0;    ///< good replies
+    std::uint64_t timeouts = 0;     ///< no reply in time
+    std::uint64_t bad_bytes = 0;    ///< bytes dropped to find the frame again
+    std::uint64_t implausible = 0;  ///< encoder jumps faster than a hand
+    std::uint64_t unsolved = 0;     ///< poses the forward kinematics could not reach
+    std::uint64_t saturated = 0;    ///< commands scaled down to the motors' range
+    std::uint64_t rehomed = 0;      ///< times the homed bits were lost
+    std::uint64_t lost = 0;         ///< times the device went away
 };
 
-/// The haptic device as the 1 kHz loop sees it. One thread calls everything; no call blocks, allocates or logs.
-/// Real: falcon/. Emulated: emulated/ (the same driver above an emulated device, byte by byte).
+/// The haptic device as the 1 kHz loop sees it. One thread calls everything; no call blocks, allocates or
+/// logs. Real: falcon/. Emulated: emulated/ (the same driver above an emulated device, byte by byte).
 class HapticDevice {
   public:
     virtual ~HapticDevice() = default;
 
-    /// Moves the driver on: takes in what arrived, runs the state machine and its deadlines. Call once per tick, first.
+    /// Moves the driver on: takes in what arrived, runs the state machine and its deadlines. Call once per
+    /// tick, first.
     virtual void poll(Instant now) = 0;
-    /// The newest reading not yet handed out; nothing if none arrived since the last call or the state is not Ready.
+    /// The newest reading not yet handed out; nothing if none arrived since the last call or the state is not
+    /// Ready.
     virtual std::optional<HandleReading> read() = 0;
-    /// Sends a force [N, Device frame] to the visitor's hand. Only Ready obeys; in every other state zero is sent.
-    /// A force that is not finite counts as zero. If the last command is still unanswered, this one waits for the reply
-    /// (newest wins).
+    /// Sends a force [N, Device frame] to the visitor's hand. Only Ready obeys; in every other state zero is
+    /// sent. A force that is not finite counts as zero. If the last command is still unanswered, this one
+    /// waits for the reply (newest wins).
     virtual void command(const glm::dvec3& force_n) = 0;
 
     virtual HapticState state() const = 0;

@@ -1,6 +1,7 @@
 #include <GLES3/gl3.h>
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "config/scene.h"

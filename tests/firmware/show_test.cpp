@@ -1,5 +1,7 @@
 #include "firmware/show.h"
 
+#include <algorithm>
+
 #include "tests/gles/gl_fixture.h"
 
 namespace eddy {

@@ -1,5 +1,6 @@
 #include "gles/fluid/cut_cell.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>

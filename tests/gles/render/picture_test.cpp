@@ -1,7 +1,9 @@
 #include <EGL/egl.h>
+
 #include <GLES3/gl3.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include "tests/gles/render/rig.h"
 

@@ -1,5 +1,6 @@
 #include "gles/yang2009/yang2009.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
