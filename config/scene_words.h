@@ -24,8 +24,8 @@ inline constexpr Word<BodyMotion> kBodyMotions[] = {
     {BodyMotion::Held, "held", "is in the visitor's hand (at most one)"},
 };
 inline constexpr Word<SolverPreset> kSolverPresets[] = {
-    {SolverPreset::Fast, "fast", "trades accuracy for time"},
-    {SolverPreset::Precise, "precise", "cut cells and multigrid"},
+    {SolverPreset::Fast, "fast", "cut cells, multigrid with 2 cycles, semi-Lagrangian transport"},
+    {SolverPreset::Precise, "precise", "cut cells, multigrid with 3 cycles, MacCormack transport"},
     {SolverPreset::Yang2009, "yang2009", "the method of Yang et al. 2009: four cell types, Jacobi"},
 };
 inline constexpr Word<AdvectionScheme> kAdvectionSchemes[] = {

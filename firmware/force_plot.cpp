@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -53,7 +54,8 @@ int run_gnuplot(const std::filesystem::path& script) {
     pid_t child = 0;
     if (posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ) != 0) return -1;
     int status = 0;
-    waitpid(child, &status, 0);
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -61,6 +63,7 @@ int run_gnuplot(const std::filesystem::path& script) {
 
 std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& force_csv) {
     const std::vector<Point> points = read_points(force_csv);
+    if (points.empty()) return std::nullopt;
     double strongest = 0.0;
     for (const Point& p : points) strongest = std::max(strongest, p.force());
     // The longest arrow is 25 mm.
@@ -100,7 +103,6 @@ std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& fo
                     "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"
                     "      $path using 1:2:3 with points pt 7 ps 0.5 lc rgb '#2050c0'\n",
                     quoted(picture.string()), data, strongest, ranges));
-    if (points.empty()) return std::nullopt;
     if (const int status = run_gnuplot(script); status != 0) {
         fmt::print(
             stderr, "no plot of the motion: {}; the script is {}\n",

@@ -20,4 +20,8 @@ struct Graphics {
     gles::Gpu gpu;
 };
 
+/// Graphics without a screen: on the GPU if there is one that can be opened, else in software, which it says on
+/// standard error. Throws gles::GlError if neither works.
+std::unique_ptr<Graphics> open_headless();
+
 }  // namespace eddy

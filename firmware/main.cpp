@@ -92,10 +92,11 @@ struct CommandLine {
     }
 
     void add_run() {
-        auto* verb = app.add_subcommand("run",
-                                        "The exhibit: fluid, picture and force. Without options: the real "
-                                        "screen and Falcon if there are any,\n"
-                                        "else no screen and an emulated hand that moves like a person's");
+        auto* verb = app.add_subcommand(
+            "run",
+            "The exhibit: fluid, picture and force. Without options: an emulated hand that moves\n"
+            "like a person's, and no screen (this version drives neither a screen nor a real Falcon)");
+        verb->option_defaults()->take_last();  // script/run gives defaults that the user's options follow
         verb->add_option("--scene", run.scene, "shipped scene or file (print-config lists all keys)");
         add_set(*verb, run.set);
         choose(*verb->add_option("--display", run.display, "where the picture goes"),
@@ -124,6 +125,7 @@ struct CommandLine {
     void add_simulate() {
         auto* verb = app.add_subcommand(
             "simulate", "Run any scene without display or hand; write series.csv, summary.json");
+        verb->option_defaults()->take_last();
         verb->add_option("SCENE", simulate.scene, "shipped scene or file")->required();
         add_set(*verb, simulate.set);
         auto* seconds = verb->add_option("--seconds", simulate.seconds, "simulated time")
@@ -140,10 +142,12 @@ struct CommandLine {
     void add_bench() {
         auto* verb =
             app.add_subcommand("bench", "Time per stage, for each preset and grid, beside the 2009 method");
+        verb->option_defaults()->take_last();
         verb->add_option("--scene", bench.scene, "shipped scene or file")->capture_default_str();
         add_set(*verb, bench.set);
         verb->add_option("--grid", bench.grids, "cells along x, as 25,32,48")
             ->delimiter(',')
+            ->take_all()
             ->check(CLI::Range(8, 512))
             ->capture_default_str();
         verb->add_option("--repeats", bench.repeats, "timed steps each")

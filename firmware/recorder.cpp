@@ -14,10 +14,11 @@ namespace eddy {
 
 Recorder::Recorder(std::filesystem::path folder) : folder_(std::move(folder)) {
     make_folder(folder_);
-    // Pictures of an earlier, longer run must not stay among the new ones.
+    // Nothing of an earlier run may stay among what is new.
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
         const std::string name = entry.path().filename().string();
-        if (name.starts_with("frame_") && name.ends_with(".png")) std::filesystem::remove(entry.path());
+        if ((name.starts_with("frame_") && name.ends_with(".png")) || name.starts_with("motion."))
+            std::filesystem::remove(entry.path());
     }
     force_.open(folder_ / "force.csv");
     if (!force_)
@@ -36,7 +37,7 @@ void Recorder::add(std::span<const TickRecord> ticks) {
             "{:.6f},{:.7f},{:.7f},{:.7f},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:.6e},{:."
             "6f},{}\n",
             Seconds(tick.t).count(), x.x, x.y, x.z, raw.x, raw.y, raw.z, filtered.x, filtered.y, filtered.z,
-            sent.x, sent.y, sent.z, Seconds(tick.fluid_age).count(), static_cast<int>(tick.reason));
+            sent.x, sent.y, sent.z, Seconds(tick.fluid_age).count(), to_word(tick.reason));
     }
 }
 
@@ -49,7 +50,7 @@ void Recorder::finish() {
     if (!force_)
         throw std::runtime_error(
             fmt::format("{}: the disk did not take all of it", (folder_ / "force.csv").string()));
-    plot_forces(folder_ / "force.csv");
+    plotted_ = plot_forces(folder_ / "force.csv").has_value();
 }
 
 }  // namespace eddy

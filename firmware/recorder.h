@@ -20,6 +20,7 @@ class Recorder {
     /// Completes force.csv and plots it.
     void finish();
 
+    bool plotted() const { return plotted_; }
     int frames() const { return frames_; }
     const std::filesystem::path& folder() const { return folder_; }
 
@@ -27,6 +28,7 @@ class Recorder {
     std::filesystem::path folder_;
     std::ofstream force_;
     int frames_ = 0;
+    bool plotted_ = false;
 };
 
 }  // namespace eddy

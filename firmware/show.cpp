@@ -42,23 +42,32 @@ Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange)
 
 void Show::update(Instant now, Seconds dt, bool diagnose) {
     const PoseSnapshot pose = exchange_.pose.newest();
+    const double interval = figures_.steps > 0 ? Seconds(now - last_).count() : dt.count();
     time_s_ += dt.count();
     const std::vector<gles::BodyState> before = states_;
     states_ = motions_.at(time_s_, dt.count());
     if (const auto held = motions_.held()) {
         gles::BodyState& body = states_[*held];
-        if (pose.sequence > 0) body.centre_m = pose.position_m;
-        // Of the displacement, not of the handle: what the body pushes away must agree with where it goes.
-        // The first pose is where the hand happens to be, not a movement.
-        if (figures_.steps > 0) body.velocity_m_s = (body.centre_m - before[*held].centre_m) / dt.count();
+        body.centre_m = pose.known ? pose.position_m : before[*held].centre_m;
+        // Of the displacement, not of the handle: what the body pushes away must agree with where it goes. But the
+        // first position after a gap (a device that has just come, a stall of the fluid) is where the hand happens
+        // to be, not a movement: the body is placed there, at rest.
+        const bool moved = pose.known && hand_known_ && interval <= 1.5 * dt.count();
+        body.velocity_m_s = moved ? (body.centre_m - before[*held].centre_m) / dt.count() : glm::dvec3(0.0);
+        hand_known_ = pose.known;
     }
-    const double interval = figures_.steps > 0 ? Seconds(now - last_).count() : dt.count();
     figures_.fluid_period_s +=
         (interval - figures_.fluid_period_s) / (figures_.steps > 0 ? kPeriodMemory : 1.0);
     last_ = now;
     ++figures_.steps;
-    computed_for_[figures_.steps] = pose.time;
     fluid_->step(dt.count(), states_, diagnose);
+    computed_for_[fluid_->steps()] = pose.time;
+}
+
+void Show::reset() {
+    fluid_->reset();
+    computed_for_.clear();
+    hand_known_ = false;
 }
 
 void Show::publish(bool wait) {
@@ -73,10 +82,10 @@ void Show::publish(bool wait) {
         const auto held = motions_.held();
         if (!held) continue;
         const gles::Load& load = result->loads[*held];
-        exchange_.fluid.publish({load.force_n, load.torque_nm, static_cast<std::uint64_t>(result->step),
-                                 computed_for, Seconds(figures_.fluid_period_s)});
+        exchange_.fluid.publish(
+            {load.force_n, load.torque_nm, ++sequence_, computed_for, Seconds(figures_.fluid_period_s)});
         const double felt = glm::length(load.force_n) * scene_.haptics.gain;
-        figures_.least_force_n = result->step == 1 ? felt : std::min(figures_.least_force_n, felt);
+        figures_.least_force_n = sequence_ == 1 ? felt : std::min(figures_.least_force_n, felt);
         figures_.most_force_n = std::max(figures_.most_force_n, felt);
     }
 }

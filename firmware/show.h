@@ -29,6 +29,9 @@ class Show {
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
     void publish(bool wait);
 
+    /// The fluid back to its start, at rest; what was under way is forgotten.
+    void reset();
+
     const gles::Fluid& fluid() const { return *fluid_; }
     const std::vector<gles::BodyState>& bodies() const { return states_; }
     const ShowFigures& figures() const { return figures_; }
@@ -41,6 +44,8 @@ class Show {
     std::vector<gles::BodyState> states_;
     double time_s_ = 0.0;  // of the fluid; falls behind the clock when steps are too slow and dt is capped
     Instant last_{0};
+    bool hand_known_ = false;               // the device gave a position for the last step
+    std::uint64_t sequence_ = 0;            // of the answers given to the haptic loop
     std::map<long, Instant> computed_for_;  // step under way -> time of the pose it was given
     ShowFigures figures_;
 };

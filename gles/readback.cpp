@@ -41,21 +41,29 @@ std::optional<Readback::Result> Readback::take(bool wait) {
     const GLenum state =
         glClientWaitSync(static_cast<GLsync>(slot.fence), GL_SYNC_FLUSH_COMMANDS_BIT, patience_ns);
     if (state == GL_TIMEOUT_EXPIRED && !wait) return std::nullopt;
+    const bool done = state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
     glDeleteSync(static_cast<GLsync>(slot.fence));
     slot.fence = nullptr;
     first_ = (first_ + 1) % slots_.size();
     --under_way_;
 
+    if (!done) {
+        ++failures_;
+        return std::nullopt;
+    }
     const std::size_t count = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
     Result result{slot.tag, std::vector<glm::vec4>(count)};
     glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
     const GLsizeiptr bytes = static_cast<GLsizeiptr>(count * sizeof(glm::vec4));
-    if (const void* mapped = glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, bytes, GL_MAP_READ_BIT)) {
+    const void* mapped = glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, bytes, GL_MAP_READ_BIT);
+    if (mapped) {
         std::memcpy(result.texels.data(), mapped, count * sizeof(glm::vec4));
         glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
     }
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    return result;
+    if (mapped) return result;
+    ++failures_;
+    return std::nullopt;
 }
 
 }  // namespace eddy::gles

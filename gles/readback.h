@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -22,8 +23,11 @@ class Readback {
     };
     /// Asks for the texture's content as it will be after everything drawn so far.
     void request(const Texture& texture, long tag);
-    /// The oldest request that is done; with `wait`, waits for the oldest (none if nothing was asked).
+    /// The oldest request that is done; with `wait`, waits for the oldest. Nothing if nothing was asked or is done, or
+    /// if the GPU lost it, which is counted: a lost answer must not look like an answer of zero.
     std::optional<Result> take(bool wait);
+    std::uint64_t failures() const { return failures_; }
+    int under_way() const { return static_cast<int>(under_way_); }
 
   private:
     struct Slot {
@@ -35,6 +39,7 @@ class Readback {
     glm::ivec2 size_;
     std::array<Slot, 3> slots_;
     std::size_t first_ = 0, under_way_ = 0;
+    std::uint64_t failures_ = 0;
 };
 
 }  // namespace eddy::gles

@@ -5,16 +5,20 @@ namespace eddy {
 
 // Every frame Eddy uses, once. All are right-handed; lengths in metres unless the name says otherwise.
 //
-//            y up                 Device  origin in the middle of the handle's workspace (Falcon: z = 0.125 m
-//            from the |                            base plane), x right, y up, z out of the device towards
-//            the visitor. |                    Tank    origin at the low corner of the fluid, x right, y up,
-//            z towards the visitor. o------ x right              The fluid fills (0,0,0) .. size_m.
-//           /                     Cell    Tank divided by the cell width h: cell (i,j,k) fills (i,j,k) ..
-//           (i+1,j+1,k+1),
-//          z to the visitor               its centre at (i+1/2, j+1/2, k+1/2).
-//                                 Atlas   texels of the 2D texture that holds the slices of a Cell-frame
-//                                 field; only
-//                                         gles/atlas.glsl and gles/atlas.h know how they are laid out.
+//         y up
+//         |
+//         o------ x right
+//        /
+//       z to the visitor
+//
+// Device  origin in the middle of the handle's workspace (Falcon: z = 0.125 m from the base plane);
+//         x right, y up, z out of the device towards the visitor.
+// Tank    origin at the low corner of the fluid; x right, y up, z towards the visitor.
+//         The fluid fills (0,0,0) .. size_m.
+// Cell    Tank divided by the cell width h: cell (i,j,k) fills (i,j,k) .. (i+1,j+1,k+1), its centre is at
+//         (i+1/2, j+1/2, k+1/2).
+// Atlas   texels of the 2D texture that holds the slices of a Cell-frame field; only gles/atlas.glsl and
+//         gles/atlas.h know how they are laid out.
 
 /// Maps the Device frame into the Tank frame: p_tank = centre_m + scale * p_device. No rotation: both have y
 /// up. Directions (velocity) are multiplied by `scale`; a force keeps its direction and is scaled by the

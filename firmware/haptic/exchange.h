@@ -25,6 +25,7 @@ struct PoseSnapshot {
     std::uint64_t sequence = 0;    ///< counts ticks from 1; 0: the loop has not run
     Instant time{0};               ///< tick that made it
     std::uint8_t buttons = 0;      ///< as in HandleReading
+    bool known = false;            ///< the device is ready and answering; if not, the position means nothing
 };
 
 /// To the loop: what the exhibit wants of it.

@@ -22,20 +22,24 @@ enum class GateReason {
 
 struct GateSentence {
     GateReason reason;
+    std::string_view word;  ///< for tables (force.csv)
     std::string_view sentence;
 };
 inline constexpr std::array<GateSentence, 8> kGateSentences{{
-    {GateReason::Open, "the force reaches the hand"},
-    {GateReason::Starting, "the force is being brought in gently"},
-    {GateReason::FluidStale, "the fluid has not answered in time: the force fades out"},
-    {GateReason::TooFast, "the handle moves faster than a hand should: no force"},
-    {GateReason::Disabled, "force is switched off"},
-    {GateReason::DeviceNotReady, "the device is not ready: no force"},
-    {GateReason::DeviceSilent, "the device stopped answering: no force until reset"},
-    {GateReason::NotFinite, "a number was not finite: no force until reset"},
+    {GateReason::Open, "open", "the force reaches the hand"},
+    {GateReason::Starting, "starting", "the force is being brought in gently"},
+    {GateReason::FluidStale, "fluid_stale", "the fluid has not answered in time: the force fades out"},
+    {GateReason::TooFast, "too_fast", "the handle moves faster than a hand should: no force"},
+    {GateReason::Disabled, "disabled", "force is switched off"},
+    {GateReason::DeviceNotReady, "device_not_ready", "the device is not ready: no force"},
+    {GateReason::DeviceSilent, "device_silent", "the device stopped answering: no force until reset"},
+    {GateReason::NotFinite, "not_finite", "a number was not finite: no force until reset"},
 }};
 constexpr std::string_view to_string(GateReason reason) {
     return kGateSentences[static_cast<std::size_t>(reason)].sentence;
+}
+constexpr std::string_view to_word(GateReason reason) {
+    return kGateSentences[static_cast<std::size_t>(reason)].word;
 }
 
 /// CHAI3D drives the Falcon with at most 8 N (CDeltaDevices.cpp); no setting goes above.

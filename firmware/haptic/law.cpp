@@ -8,7 +8,7 @@ namespace eddy {
 namespace {
 
 /// The hand as the fluid sees it: carried into the tank and kept inside the bounds.
-PoseSnapshot pose_in_tank(const LawState& state, const HapticInput& in) {
+PoseSnapshot pose_in_tank(const LawState& state, const HapticInput& in, bool known) {
     const HapticOrders& orders = in.orders;
     const glm::dvec3 wanted = orders.tank_from_device.position(state.hand.position_m());
     const glm::dvec3 inside = glm::min(glm::max(wanted, orders.lowest_m), orders.highest_m);
@@ -19,7 +19,8 @@ PoseSnapshot pose_in_tank(const LawState& state, const HapticInput& in) {
             .velocity_m_s = free * orders.tank_from_device.velocity(state.hand.velocity_m_s()),
             .sequence = state.ticks,
             .time = in.now,
-            .buttons = state.buttons};
+            .buttons = state.buttons,
+            .known = known};
 }
 
 /// Age counts from arrival, not from computed_for: solving and reading back take two fluid periods of their
@@ -47,7 +48,10 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
         state.answered = true;
     }
     const bool ready = in.device == HapticState::Ready && state.answered;
-    const bool silent = state.answered && in.silence >= kReplyTimeout;
+    // A tick that comes late finds an old reply, for nobody asked in between: the loop's own lateness is not the
+    // device's silence.
+    const Seconds lateness = std::max(Seconds(0.0), dt - kNominalTick);
+    const bool silent = state.answered && in.silence - lateness >= kReplyTimeout;
     if (!ready || silent) state.hand.forget();
 
     // The fluid's newest answer, held until the next.
@@ -70,7 +74,7 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
                          .reset = reset};
     out.force_n = state.gate(gate, dt);
     out.reason = state.gate.reason();
-    out.pose = pose_in_tank(state, in);
+    out.pose = pose_in_tank(state, in, ready && !silent);
     return out;
 }
 

@@ -15,6 +15,9 @@ inline constexpr Seconds kReplyTimeout{0.020};
 inline constexpr Seconds kFluidTimeout{0.100};
 inline constexpr double kFluidPeriodsAllowed = 3.0;
 
+/// Time between ticks when none is late.
+inline constexpr Seconds kNominalTick{0.001};
+
 struct HapticInput {
     Instant now{0};
     std::optional<HandleReading> reading = std::nullopt;  ///< newest not yet handed out, if one arrived

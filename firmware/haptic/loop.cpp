@@ -42,7 +42,7 @@ void HapticLoop::tick(Instant now) {
     ++report_.ticks;
     report_.impulses = state_.filter.impulses();
     report_.gate = state_.gate.counters();
-    report_.reason = out.reason;
+    if (!closing_) report_.reason = out.reason;  // the last word of a run is not that it ended
     report_.device = in.device;
     report_.device_counters = device_.counters();
     exchange_.report.publish(report_);

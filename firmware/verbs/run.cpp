@@ -31,6 +31,9 @@ using namespace std::chrono_literals;
 /// A fluid step covers the time since the last one, but never more: after a stall the fluid loses time
 /// instead of leaping.
 constexpr Seconds kLongestStep{0.1};
+constexpr Seconds kShortestStep{0.001};
+/// A latched force comes back by itself once its cause has been gone for this long; it is brought in gently.
+constexpr Instant kLatchRest = 3s;
 /// One step in this many is timed stage by stage and diagnosed; both make it wait for the GPU.
 constexpr long kMeasureEvery = 20;
 /// Recording pictures may take this share of the time; the fluid has the rest.
@@ -45,10 +48,9 @@ void stop_on_signals() {
     sigaction(SIGTERM, &action, nullptr);
 }
 
-std::unique_ptr<Display> make_display(DisplayChoice choice) {
+void require_no_screen(DisplayChoice choice) {
     if (choice == DisplayChoice::Kms)
         throw InputError("--display kms: this version cannot drive a screen yet; use headless, or auto");
-    return make_headless_display();
 }
 
 emulated::AxisMap axes_of(const RunOptions& options) {
@@ -104,22 +106,24 @@ gles::RenderSetup render_setup(const Scene& scene) {
 class Run {
   public:
     Run(const RunOptions& options, const Exhibit& exhibit, const Scene& scene,
-        std::unique_ptr<HapticDevice> device, std::unique_ptr<Display> display)
+        std::unique_ptr<HapticDevice> device, std::unique_ptr<Graphics> graphics)
         : options_(options),
           scene_(scene),
           device_(std::move(device)),
-          graphics_(std::move(display)),
-          show_(graphics_.gpu, scene, exchange_),
-          stopwatch_(graphics_.gpu),
+          device_name_(device_ ? device_->describe() : "none"),
+          graphics_(std::move(graphics)),
+          show_(graphics_->gpu, scene, exchange_),
+          stopwatch_(graphics_->gpu),
           trace_(20000) {
         if (!options.record.empty()) {
             recorder_.emplace(options.record);
-            renderer_.emplace(graphics_.gpu, show_.fluid().setup(), render_setup(scene));
+            renderer_.emplace(graphics_->gpu, show_.fluid().setup(), render_setup(scene));
         }
         HapticLoopSettings settings;
         settings.gate.max_force_n = std::min(scene.haptics.max_force_n, exhibit.max_force_n);
         if (device_) loop_.emplace(*device_, exchange_, trace_, settings);
-        exchange_.orders.publish(orders_for(scene));
+        orders_ = orders_for(scene);
+        exchange_.orders.publish(orders_);
         // status.json goes where it is asked for; by default to the run folder of the service, if there is
         // one.
         const std::filesystem::path folder =
@@ -134,6 +138,7 @@ class Run {
         progress_.finish();
         if (recorder_) recorder_->finish();
     }
+    bool recording_failed() const { return recording_failed_; }
     /// Ten lines on standard output.
     void summarise() const;
 
@@ -145,13 +150,15 @@ class Run {
     void fluid_update(Instant now, Seconds dt);
     void record_frame();
     void drain_trace();
+    void release_latch(Instant now);
     void report(Instant now, bool force = false);
 
     RunOptions options_;
     Scene scene_;
     std::unique_ptr<HapticDevice> device_;
+    std::string device_name_;  // as it was when only one thread could ask
     HapticExchange exchange_;
-    Graphics graphics_;
+    std::unique_ptr<Graphics> graphics_;
     Show show_;
     Stopwatch stopwatch_;
     TickTrace trace_;
@@ -160,7 +167,10 @@ class Run {
     std::optional<gles::Renderer> renderer_;
     std::optional<Recorder> recorder_;
     std::filesystem::path status_file_;
+    HapticOrders orders_;
+    Instant latched_since_{0};
     Instant status_due_{0}, frame_due_{0};
+    bool recording_failed_ = false;
     double sent_most_n_ = 0.0;
     LoopReport loop_report_;
     double clock_s_ = 0.0, wall_s_ = 0.0;
@@ -178,7 +188,28 @@ void Run::record_frame() {
     stopwatch_.set_on(true);
     renderer_->draw(show_.fluid(), show_.bodies());
     stopwatch_.set_on(false);
-    recorder_->add(*renderer_, scene_.render.width_px, scene_.render.height_px);
+    try {
+        recorder_->add(*renderer_, scene_.render.width_px, scene_.render.height_px);
+    } catch (const std::runtime_error& e) {
+        // A full disk must not stop the show.
+        fmt::print(stderr, "recording stopped: {}\n", e.what());
+        recorder_.reset();
+        recording_failed_ = true;
+    }
+}
+
+void Run::release_latch(Instant now) {
+    const GateReason reason = loop_report_.reason;
+    const bool latched = reason == GateReason::DeviceSilent || reason == GateReason::NotFinite;
+    if (!latched || loop_report_.device != HapticState::Ready) {
+        latched_since_ = now;
+        return;
+    }
+    if (now - latched_since_ < kLatchRest) return;
+    latched_since_ = now;
+    if (reason == GateReason::NotFinite) show_.reset();
+    ++orders_.resets;
+    exchange_.orders.publish(orders_);
 }
 
 void Run::drain_trace() {
@@ -191,14 +222,15 @@ void Run::drain_trace() {
 
 void Run::report(Instant now, bool force) {
     loop_report_ = exchange_.report.newest();
+    release_latch(now);
     if (options_.seconds)
         progress_.show(Seconds(now).count(), *options_.seconds,
                        fmt::format("{} fluid steps", show_.figures().steps));
     if (status_file_.empty() || (now < status_due_ && !force)) return;
     status_due_ = now + 1s;
-    write_status(status_file_, {scene_.title, graphics_.gpu.capabilities().renderer,
-                                graphics_.display->describe(), device_ ? device_->describe() : "none",
-                                Seconds(now).count(), show_.figures(), loop_report_});
+    write_status(status_file_,
+                 {scene_.title, graphics_->gpu.capabilities().renderer, graphics_->display->describe(),
+                  device_name_, Seconds(now).count(), show_.figures(), loop_report_});
 }
 
 /// Both loops on their own threads and the machine's clock, as a visitor meets them.
@@ -207,6 +239,16 @@ void Run::real() {
     std::atomic<bool> stop_loop{false};
     RealtimeGrant grant;
     std::thread haptic_thread;
+    // Whatever happens below, the loop ends by sending zero.
+    struct EndLoop {
+        std::atomic<bool>& stop;
+        std::thread& thread;
+        ~EndLoop() {
+            stop = true;
+            if (thread.joinable()) thread.join();
+        }
+    };
+    std::optional<EndLoop> end_loop(std::in_place, stop_loop, haptic_thread);
     if (loop_)
         haptic_thread = std::thread([&] {
             grant = grant_realtime(MemoryLock::No);
@@ -231,15 +273,16 @@ void Run::real() {
         drain_trace();
         report(now);
     }
-    stop_loop = true;
-    if (haptic_thread.joinable()) haptic_thread.join();
+    end_loop.reset();
     drain_trace();
     clock_s_ = wall_s_ = Seconds(clock.now()).count();
     report(now, true);
     if (loop_ && !grant.fifo)
-        fmt::print(stderr,
-                   "the haptic thread has no real-time priority ({}); set LimitRTPRIO=50 in its unit\n",
-                   std::strerror(grant.fifo_error));
+        fmt::print(
+            stderr,
+            "the haptic thread had no real-time priority ({}): ticks were late when the machine was busy; a "
+            "service gets it by LimitRTPRIO=50 in its unit\n",
+            std::strerror(grant.fifo_error));
 }
 
 /// Both loops on one virtual clock and one thread: the same input gives the same run, bit for bit. The
@@ -284,8 +327,9 @@ void Run::summarise() const {
     };
     fmt::print("scene       {} ({}x{}x{} cells of {:.2f} mm)\n", scene_.title, scene_.tank.cells.x,
                scene_.tank.cells.y, scene_.tank.cells.z, scene_.tank.cell_m() * 1e3);
-    fmt::print("renderer    {}, {}\n", graphics_.gpu.capabilities().renderer, graphics_.display->describe());
-    fmt::print("hand        {}\n", device_ ? device_->describe() : "none");
+    fmt::print("renderer    {}, {}\n", graphics_->gpu.capabilities().renderer,
+               graphics_->display->describe());
+    fmt::print("hand        {}\n", device_name_);
     fmt::print("fluid       {} steps in {:.1f} s of {} clock: {:.1f} steps/s\n", f.steps, clock_s_,
                options_.clock == ClockChoice::Real ? "real" : "stepped",
                static_cast<double>(f.steps) / wall_s_);
@@ -302,8 +346,8 @@ void Run::summarise() const {
     fmt::print("gate        {}; clamped {}, slewed {}, not finite {}\n", to_string(loop_report_.reason),
                loop_report_.gate.clamped, loop_report_.gate.slewed, loop_report_.gate.non_finite);
     if (recorder_)
-        fmt::print("recorded    {} pictures, force.csv and motion.png in {}\n", recorder_->frames(),
-                   recorder_->folder().string());
+        fmt::print("recorded    {} pictures, force.csv{} in {}\n", recorder_->frames(),
+                   recorder_->plotted() ? " and motion.png" : "", recorder_->folder().string());
     else
         fmt::print("recorded    nothing (--record DIR keeps pictures and forces)\n");
 }
@@ -316,19 +360,24 @@ int run(const RunOptions& options) {
     const Scene scene = load_scene(options.scene.empty() ? exhibit.scene : options.scene, options.set).scene;
     if (options.clock == ClockChoice::Stepped && !options.seconds)
         throw InputError("--clock stepped: say how long with --seconds, or it would never end");
+    if (scene.solver.dt_s < kShortestStep.count())
+        throw InputError(fmt::format(
+            "solver.dt_s = {}: run keeps time in ticks of 1 ms; use at least 0.001 (simulate takes "
+            "any)",
+            scene.solver.dt_s));
+    require_no_screen(options.display.value_or(exhibit.display));
     BodyMotions{scene};  // reads the paths
     std::unique_ptr<HapticDevice> device = make_device(options, options.haptics.value_or(exhibit.haptics));
-    std::unique_ptr<Display> display = make_display(options.display.value_or(exhibit.display));
     if (!options.record.empty()) prepare_folder("--record", options.record);
     if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);
-    Run run(options, exhibit, scene, std::move(device), std::move(display));
+    Run run(options, exhibit, scene, std::move(device), open_headless());
     if (options.clock == ClockChoice::Real)
         run.real();
     else
         run.stepped();
     run.finish();
     run.summarise();
-    return 0;
+    return run.recording_failed() ? 1 : 0;
 }
 
 }  // namespace eddy

@@ -103,13 +103,13 @@ int simulate(const SimulateOptions& options) {
     const double dt = scene.solver.dt_s;
     const long steps = steps_of(options, scene);
     if (!options.out.empty() && !options.plan) prepare_folder("--out", options.out);
-    Graphics graphics(make_headless_display());
+    const std::unique_ptr<Graphics> graphics = open_headless();
     if (options.plan) {
-        fmt::print("{}", plan_of(graphics.gpu, fluid_setup(scene), motions, dt));
+        fmt::print("{}", plan_of(graphics->gpu, fluid_setup(scene), motions, dt));
         return 0;
     }
 
-    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(graphics.gpu, fluid_setup(scene));
+    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(graphics->gpu, fluid_setup(scene));
     std::optional<Series> series;
     if (!options.out.empty()) {
         std::vector<std::string> names;
@@ -124,7 +124,7 @@ int simulate(const SimulateOptions& options) {
         const auto step_start = std::chrono::steady_clock::now();
         const double t = static_cast<double>(n) * dt;
         fluid->step(dt, motions.at(t, dt), true);
-        const gles::StepResult result = *fluid->result(true);
+        const gles::StepResult result = fluid->wait_result();
         add_to(summary, result);
         if (series) series->add(t, result, milliseconds_since(step_start));
         progress.show(static_cast<double>(n), static_cast<double>(steps));
@@ -134,7 +134,7 @@ int simulate(const SimulateOptions& options) {
     summary.wall_s = milliseconds_since(start) / 1e3;
 
     fmt::print("{}: {} steps of {} s on {}\n", scene.title.empty() ? options.scene : scene.title,
-               summary.steps, dt, graphics.gpu.capabilities().renderer);
+               summary.steps, dt, graphics->gpu.capabilities().renderer);
     fmt::print("{:.1f} steps/s; each step cut the divergence by a factor of {:.0f} or more\n",
                static_cast<double>(steps) / summary.wall_s, summary.divergence_cut);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -146,7 +146,7 @@ int simulate(const SimulateOptions& options) {
         const std::filesystem::path out(options.out);
         if (series) series->finish();
         write_fields(out, scene, *fluid);
-        replace_text_file(out / "summary.json", to_json(summary, loaded, graphics.gpu));
+        replace_text_file(out / "summary.json", to_json(summary, loaded, graphics->gpu));
         fmt::print("written to {}\n", options.out);
     }
     return 0;

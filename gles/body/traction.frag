@@ -3,7 +3,7 @@
 // reads   phi         RGBA32F  Cells4 (nx, ny, nz)       [m/s]
 // reads   ax, ay, az  RGBA32F  Faces4                    fluid fraction
 // writes  force, moment   RGBA32F, one texel for each column of the body's box: rgb  [m/s cells^2], [m/s cells^3]
-// fetches 7
+// fetches 35          7 for each slab of four layers; a ball of 5 cells has 5
 //
 // p grad(1 - a) is -p n dA in the form that does exactly the work the projection does on the fluid: with it,
 // force . U is the power that the body gives, to rounding. Times rho h^3 / dt it is newtons (rho h^4 / dt: newton metres).

@@ -19,6 +19,7 @@ class CutCellFluid final : public Fluid {
 
     void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
     std::optional<StepResult> result(bool wait) override;
+    long steps() const override { return step_; }
     void reset() override;
     const Field<Cells>* smoke() const override { return smoke_ ? &*smoke_ : nullptr; }
     std::vector<glm::vec3> velocity() const override;
@@ -30,7 +31,6 @@ class CutCellFluid final : public Fluid {
     Field<Faces> drive_sources(Field<Faces> u);
     Field<Cells4> divergence(const Field<Faces>& u);
     Field<Faces> subtract_gradient(const Field<Faces>& u);
-    void integrate_traction(const std::vector<BodyState>& bodies);
     void diagnose(const Field<Cells4>& before);
 
     // --- state, and who writes it                                             unit       cells

@@ -1,4 +1,4 @@
-// diagnose.frag     For each column of cells: max |div u|, sum of |u|^2, sum of smoke, max |residual|
+// diagnose.frag     For each column of cells: max |div u|, sum of |u|^2, sum of smoke, max |div u| before the projection
 //
 // reads   velocity    RGBA32F  Faces     [m/s]       after the projection
 // reads   divergence  RGBA32F  Cells4    [m/s]       of that velocity, the solid's share included

@@ -10,4 +10,9 @@ std::unique_ptr<Fluid> make_fluid(Gpu& gpu, const FluidSetup& setup) {
     return std::make_unique<CutCellFluid>(gpu, setup);
 }
 
+StepResult Fluid::wait_result() {
+    if (auto oldest = result(true)) return *std::move(oldest);
+    throw GlError("the GPU has stopped answering; nothing came back for a step");
+}
+
 }  // namespace eddy::gles

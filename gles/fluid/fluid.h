@@ -31,12 +31,16 @@ class Fluid {
     virtual void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) = 0;
     /// The oldest result not yet taken. Without `wait`: only if the GPU has finished it.
     virtual std::optional<StepResult> result(bool wait) = 0;
+    /// The oldest result, waiting for the GPU as long as it takes. Throws GlError if the GPU has stopped answering.
+    StepResult wait_result();
+    /// Steps asked for since the start.
+    virtual long steps() const = 0;
     /// Back to the start, exactly.
     virtual void reset() = 0;
 
     /// Smoke density at cell centres; null if the scene has none.
     virtual const Field<Cells>* smoke() const = 0;
-    /// Velocity [m/s] as a new grid of texels would see it: waits for the GPU. x fastest, then y, then z.
+    /// Velocity [m/s] as a plain array, x fastest, then y, then z. Waits for the GPU.
     /// On the staggered grid: (nx+1)(ny+1)(nz+1) entries, component c on the lower face of its cell.
     virtual std::vector<glm::vec3> velocity() const = 0;
     /// Pressure [Pa] in each cell, for the last step; x fastest. Waits for the GPU.

@@ -67,8 +67,7 @@ void Yang2009Fluid::reset() {
         smoke_ = Field<Cells>(gpu_, n, Format::R32F);
         clear(smoke_->texture());
     }
-    while (readback_.take(true)) {
-    }
+    while (readback_.under_way() > 0) readback_.take(true);
     step_ = 0;
     time_s_ = 0.0;
 }

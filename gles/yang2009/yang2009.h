@@ -26,6 +26,7 @@ class Yang2009Fluid final : public Fluid {
 
     void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
     std::optional<StepResult> result(bool wait) override;
+    long steps() const override { return step_; }
     void reset() override;
     const Field<Cells>* smoke() const override { return smoke_ ? &*smoke_ : nullptr; }
     /// At cell centres: (nx)(ny)(nz) entries; in obstacle cells the obstacle's velocity.

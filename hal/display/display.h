@@ -21,5 +21,7 @@ class Display {
 
 /// No screen: the GPU of an EGL device if the machine has one, else the software rasteriser.
 std::unique_ptr<Display> make_headless_display();
+/// No screen and no GPU: Mesa's surfaceless platform, which every machine with Mesa has.
+std::unique_ptr<Display> make_software_display();
 
 }  // namespace eddy

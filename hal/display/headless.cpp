@@ -41,7 +41,7 @@ EGLDeviceEXT find_hardware() {
 
 class HeadlessDisplay final : public Display {
   public:
-    HeadlessDisplay() : device_(find_hardware()) {}
+    explicit HeadlessDisplay(EGLDeviceEXT device) : device_(device) {}
     unsigned egl_platform() const override {
         return device_ ? EGL_PLATFORM_DEVICE_EXT : EGL_PLATFORM_SURFACELESS_MESA;
     }
@@ -60,7 +60,10 @@ class HeadlessDisplay final : public Display {
 }  // namespace
 
 std::unique_ptr<Display> make_headless_display() {
-    return std::make_unique<HeadlessDisplay>();
+    return std::make_unique<HeadlessDisplay>(find_hardware());
+}
+std::unique_ptr<Display> make_software_display() {
+    return std::make_unique<HeadlessDisplay>(nullptr);
 }
 
 }  // namespace eddy

@@ -20,7 +20,8 @@ TEST(Reference, TellsTypeRangeDefaultAndMeaning) {
         text,
         HasSubstr(
             "| `radius_m` | a number | above 0 and at most 1000 | must be given | radius of the sphere |"));
-    EXPECT_THAT(text, HasSubstr("`fast` trades accuracy for time; `precise` "));
+    EXPECT_THAT(
+        text, HasSubstr("`fast` cut cells, multigrid with 2 cycles, semi-Lagrangian transport; `precise` "));
 }
 
 TEST(Reference, RowsHaveFiveColumns) {

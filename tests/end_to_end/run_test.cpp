@@ -124,13 +124,13 @@ TEST(Run, EndsByItselfAndSaysHowItWent) {
 
     EXPECT_EQ(folder.listing(), (std::vector<std::string>{"run/", "run/status.json"}));
     const nlohmann::json status = nlohmann::json::parse(read_all(folder / "run/status.json"));
-    EXPECT_NEAR(status.at("uptime_s").get<double>(), 1.0, 0.3);
-    EXPECT_GT(status.at("fluid").at("steps").get<int>(), 5);
-    const int ticks = status.at("haptics").at("ticks");
-    EXPECT_GE(ticks, 700) << status.dump(2);
-    EXPECT_LE(ticks, 1100) << status.dump(2);
-    // Ticks are run, or left out and counted; none are lost in between.
-    EXPECT_NEAR(ticks + status.at("haptics").at("missed").get<int>(), 1000, 100) << status.dump(2);
+    const double uptime = status.at("uptime_s");
+    EXPECT_GE(uptime, 1.0);
+    EXPECT_GT(status.at("fluid").at("steps").get<int>(), 0);
+    // However busy the machine: each millisecond's tick is run, or left out and counted; none is lost in between.
+    const int ticks = status.at("haptics").at("ticks"), missed = status.at("haptics").at("missed");
+    EXPECT_GT(ticks, 0);
+    EXPECT_NEAR(ticks + missed, 1000.0 * uptime, 50.0) << status.dump(2);
 }
 
 TEST(Run, EndsCleanlyWithinTwoSecondsOfBeingTold) {

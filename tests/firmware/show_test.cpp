@@ -27,7 +27,7 @@ class ShowTest : public gles::GlTest {
     std::uint64_t ticks = 0;
 
     void hand_at(const glm::dvec3& position, Instant time) {
-        exchange.pose.publish({position, glm::dvec3(0.0), ++ticks, time, 0});
+        exchange.pose.publish({position, glm::dvec3(0.0), ++ticks, time, 0, true});
     }
 };
 
@@ -88,6 +88,33 @@ TEST_F(ShowTest, FluidResistsAHandThatSetsOff) {
     EXPECT_LT(std::abs(force.y), 0.02e-3);
 }
 
+TEST_F(ShowTest, AfterAStallTheBodyIsPlacedWhereTheHandIsAtRest) {
+    Show show(gpu, scene_with(""), exchange);
+    for (int n = 1; n <= 3; ++n) {
+        hand_at({0.07, 0.08, 0.08}, n * 20ms);
+        show.update(n * 20ms, kDt, false);
+        show.publish(true);
+    }
+    hand_at({0.09, 0.08, 0.08}, 560ms);  // half a second later, 20 mm on
+    show.update(560ms, kDt, false);
+    show.publish(true);
+    EXPECT_EQ(show.bodies().at(0).centre_m, glm::dvec3(0.09, 0.08, 0.08));
+    EXPECT_EQ(show.bodies().at(0).velocity_m_s, glm::dvec3(0.0));
+    EXPECT_LT(glm::length(exchange.fluid.newest().force_n), 1e-9);
+}
+
+TEST_F(ShowTest, AHandThatIsNotKnownLeavesTheBodyWhereItIs) {
+    Show show(gpu, scene_with(""), exchange);
+    hand_at({0.07, 0.08, 0.08}, 20ms);
+    show.update(20ms, kDt, false);
+    exchange.pose.publish({glm::dvec3(0.0), glm::dvec3(0.0), ++ticks, 40ms, 0, false});
+    show.update(40ms, kDt, false);
+    EXPECT_EQ(show.bodies().at(0).centre_m, glm::dvec3(0.07, 0.08, 0.08));
+    EXPECT_EQ(show.bodies().at(0).velocity_m_s, glm::dvec3(0.0));
+    show.publish(true);
+    show.publish(true);
+}
+
 TEST_F(ShowTest, FiguresRangeOverTheForceAfterGain) {
     for (const double gain : {1.0, 20000.0}) {
         HapticExchange own;
@@ -98,7 +125,8 @@ TEST_F(ShowTest, FiguresRangeOverTheForceAfterGain) {
                               glm::dvec3(0.0),
                               static_cast<std::uint64_t>(n),
                               n * 20ms,
-                              0});
+                              0,
+                              true});
             show.update(n * 20ms, kDt, n == 3);
             show.publish(true);
             const double felt = gain * glm::length(own.fluid.newest().force_n);

@@ -115,6 +115,18 @@ TEST(Law, ReplyMissingFor20msZeroesAndLatches) {
     EXPECT_NEAR(bench.run(2000).force_n.y, 2.0, 1e-12);
 }
 
+TEST(Law, ATickThatComesLateIsNotTheDevicesSilence) {
+    // For 30 ms nobody asked the device, so its last reply is 30 ms old; it answers again in the tick after.
+    Bench bench;
+    bench.run(2000);
+    bench.ticks += 30;
+    bench.in.now = std::chrono::milliseconds(bench.ticks);
+    bench.in.reading.reset();
+    bench.in.silence = bench.in.now - bench.last_reply;
+    EXPECT_EQ(law(bench.state, bench.in, Seconds(0.030)).reason, GateReason::Open);
+    EXPECT_EQ(bench.run(10).reason, GateReason::Open);
+}
+
 TEST(Law, ADeviceThatNeverAnsweredIsNotReadyRatherThanLost) {
     Bench bench;
     bench.answering = false;

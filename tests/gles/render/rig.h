@@ -30,6 +30,7 @@ class StillSmoke final : public Fluid {
     }
     void step(double, const std::vector<BodyState>&, bool) override {}
     std::optional<StepResult> result(bool) override { return {}; }
+    long steps() const override { return 0; }
     void reset() override {}
     const Field<Cells>* smoke() const override { return smoke_ ? &*smoke_ : nullptr; }
     std::vector<glm::vec3> velocity() const override { return {}; }
