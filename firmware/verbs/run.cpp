@@ -110,7 +110,7 @@ class Run {
         : options_(options),
           scene_(scene),
           device_(std::move(device)),
-          device_name_(device_ ? device_->describe() : "none"),
+          device_name_(device_ ? "Novint Falcon, emulated" : "none"),
           graphics_(std::move(graphics)),
           show_(graphics_->gpu, scene, exchange_),
           stopwatch_(graphics_->gpu),
@@ -156,7 +156,8 @@ class Run {
     RunOptions options_;
     Scene scene_;
     std::unique_ptr<HapticDevice> device_;
-    std::string device_name_;  // as it was when only one thread could ask
+    std::string
+        device_name_;  // with its state once the loop has ended: only the loop's thread may ask the device
     HapticExchange exchange_;
     std::unique_ptr<Graphics> graphics_;
     Show show_;
@@ -274,6 +275,7 @@ void Run::real() {
         report(now);
     }
     end_loop.reset();
+    if (device_) device_name_ = device_->describe();
     drain_trace();
     clock_s_ = wall_s_ = Seconds(clock.now()).count();
     report(now, true);
@@ -309,6 +311,7 @@ void Run::stepped() {
         drain_trace();
         report(t);
     }
+    if (device_) device_name_ = device_->describe();
     drain_trace();
     show_.publish(true);
     clock_s_ = Seconds(clock.now()).count();
