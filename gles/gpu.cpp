@@ -28,8 +28,8 @@ Gpu::~Gpu() {
 }
 
 unsigned Gpu::framebuffer(const std::vector<const Texture*>& targets) {
-    std::vector<unsigned> key;
-    for (const Texture* texture : targets) key.push_back(texture->id());
+    std::vector<std::uint64_t> key;
+    for (const Texture* texture : targets) key.push_back(texture->serial());
     if (auto it = framebuffers_.find(key); it != framebuffers_.end()) return it->second;
 
     GLuint framebuffer = 0;
@@ -38,7 +38,7 @@ unsigned Gpu::framebuffer(const std::vector<const Texture*>& targets) {
     std::vector<GLenum> buffers;
     for (std::size_t i = 0; i < key.size(); ++i) {
         const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
-        glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, key[i], 0);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, targets[i]->id(), 0);
         buffers.push_back(attachment);
     }
     glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());

@@ -67,7 +67,7 @@ class Gpu {
     bool filters_float_;
     TexturePool textures_;
     unsigned vertex_array_ = 0;
-    std::map<std::vector<unsigned>, unsigned> framebuffers_;
+    std::map<std::vector<std::uint64_t>, unsigned> framebuffers_;  // by the serials of their textures
     std::string stage_;
     StageWatcher watcher_;
     std::vector<PassRecord>* records_ = nullptr;

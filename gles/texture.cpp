@@ -15,6 +15,8 @@ struct FormatRow {
     const char* name;
 };
 
+std::uint64_t g_textures_made = 0;  // GL thread only
+
 const FormatRow& row(Format format) {
     static constexpr FormatRow kRows[] = {
         {GL_R32F, GL_RED, GL_FLOAT, 4, 1, "R32F"},
@@ -36,7 +38,8 @@ const char* to_string(Format format) {
     return row(format).name;
 }
 
-Texture::Texture(const glm::ivec2& size, Format format, bool linear) : size_(size), format_(format) {
+Texture::Texture(const glm::ivec2& size, Format format, bool linear)
+    : serial_(++g_textures_made), size_(size), format_(format) {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (size.x > limit || size.y > limit)

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -20,6 +21,8 @@ class Texture {
     Texture& operator=(const Texture&) = delete;
 
     unsigned id() const { return id_; }
+    /// Never given twice, unlike GL's id, which a driver may hand out again after the texture is gone.
+    std::uint64_t serial() const { return serial_; }
     glm::ivec2 size() const { return size_; }
     Format format() const { return format_; }
     std::size_t bytes() const;
@@ -32,6 +35,7 @@ class Texture {
 
   private:
     unsigned id_ = 0;
+    std::uint64_t serial_;
     glm::ivec2 size_;
     Format format_;
 };
