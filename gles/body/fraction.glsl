@@ -8,10 +8,9 @@
 const float kSliver = 1e-4;
 
 // Components of the normal are not let below this. For a face along the grid the fraction would otherwise have a kink
-// where the surface passes a cell's edge, and a body gliding by would be felt to tick once a cell: rms ripple of the drag
-// coefficient of a sphere of 4 cells at 0.2 cells a step, measured by tests/physics/ripple_test.cpp for 0.05, 0.2, 0.3,
-// 0.45, 0.6: 0.0077, 0.0065, 0.0027, 0.0050, 0.0015 (fast preset). It is one more box filter across the surface, so the solid's volume
-// stays what it is; the price is added mass, 0.1 % at 0.3 and 1 % at 0.6.
+// where the surface passes a cell's edge, and a body gliding by would be felt to tick once a cell
+// (tests/physics/ripple_test.cpp measures that; change this and run it). It is one more box filter across the surface;
+// larger values smooth more and lower the added mass (tests/physics/added_mass_test.cpp).
 const float kLeastNormal = 0.3;
 
 // n: |components| of the unit normal.
