@@ -50,6 +50,12 @@ std::string switches(const Gpu& gpu, const Variant& variant) {
     return text;
 }
 
+std::vector<std::string> switch_names(const Variant& variant) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : variant.defines) names.push_back(name);
+    return names;
+}
+
 std::string declarations(const AtlasLayout& target, const Variant& variant) {
     std::string text = target.declaration("TARGET");
     for (const auto& [name, layout] : variant.layouts) text += layout.declaration(name);
@@ -72,7 +78,7 @@ Pass::Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayou
       name_(std::move(name)),
       shader_(shader),
       target_(target),
-      fetches_(declared_fetches(shader)) {
+      fetches_(declared_fetches(shader, switch_names(variant))) {
     const std::string defines = switches(gpu, variant), constants = declarations(target, variant);
     const unsigned vertex =
         compile(GL_VERTEX_SHADER, "gles/pass.vert", "#define VERTEX_SHADER\n", target.declaration("TARGET"));

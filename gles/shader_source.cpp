@@ -1,5 +1,7 @@
 #include "gles/shader_source.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <regex>
@@ -111,13 +113,26 @@ std::string ShaderSource::locate(std::string_view log) const {
     return result + rest;
 }
 
-int declared_fetches(std::string_view path) {
-    const std::string_view text = find_or_throw(path).text;
-    const std::size_t word = text.find("// fetches");
-    if (word == std::string_view::npos)
+int declared_fetches(std::string_view path, const std::vector<std::string>& defined) {
+    static const std::regex line(R"(\n// fetches (\d+)((, \w+(\+\w+)* \d+)*))"),
+        variant(R"((\w+(\+\w+)*) (\d+))"), switch_name(R"(\w+)");
+    const std::string text(find_or_throw(path).text);
+    std::smatch m;
+    if (!std::regex_search(text, m, line))
         throw GlError(
             fmt::format("{}: its header has no line '// fetches N', the texture fetches per texel", path));
-    return std::stoi(std::string(text.substr(word + 10, 12)));
+    int fetches = std::stoi(m[1]);
+    const std::string variants = m[2];
+    for (std::sregex_iterator v(variants.begin(), variants.end(), variant), end; v != end; ++v) {
+        const std::string names = (*v)[1];
+        const bool applies =
+            std::all_of(std::sregex_iterator(names.begin(), names.end(), switch_name), std::sregex_iterator(),
+                        [&](const std::smatch& name) {
+                            return std::count(defined.begin(), defined.end(), name.str()) > 0;
+                        });
+        if (applies) fetches = std::stoi((*v)[3]);
+    }
+    return fetches;
 }
 
 }  // namespace eddy::gles

@@ -27,7 +27,9 @@ ShaderSource load_shader(std::string_view path, std::string_view switches, std::
 ShaderSource expand_shader(const EmbeddedFile& file, std::string_view switches,
                            std::string_view declarations);
 
-/// The first number after "fetches" in the shader's header: texture fetches for one texel written.
-int declared_fetches(std::string_view path);
+/// Texture fetches for one texel written, as the shader's header says: "// fetches 8, CUT 14, CUT+WALLS 24" is
+/// a number for the plain shader and one for each combination of switches that changes it; the last whose
+/// switches are all among `defined` counts.
+int declared_fetches(std::string_view path, const std::vector<std::string>& defined = {});
 
 }  // namespace eddy::gles

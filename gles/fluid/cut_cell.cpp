@@ -9,6 +9,10 @@
 namespace eddy::gles {
 namespace {
 
+/// More V-cycles for the first step, which has no pressure of the last one to start from: its force is an
+/// impulse, and comes out right (2 cycles alone: 2 % low; 5: within 0.02 % of the converged one).
+constexpr int kColdCycles = 3;
+
 std::string ivec3_text(const glm::ivec3& v) {
     return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z);
 }
@@ -97,11 +101,17 @@ void CutCellFluid::reset() {
 }
 
 void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool wants_diagnosis) {
+    const float guess_scale = dt_s_ > 0.0 ? static_cast<float>(dt_s / dt_s_) : 1.0f;  // phi ~ dt p
     dt_s_ = dt_s;
     body_uniforms_.set(bodies);
     boxes_.clear();
     for (std::size_t i = 0; i < bodies.size(); ++i)
         boxes_.push_back(body_box(setup_.bodies[i].shape, bodies[i], setup_.cell_m, setup_.cells));
+
+    std::vector<Box> rough = boxes_;
+    for (const SourceSetup& source : setup_.sources)
+        if (source.velocity_m_s && is_running(source, time_s_))
+            rough.push_back(ball_box(ball_cells(source, setup_.cell_m), setup_.cells));
 
     Field<Faces> u;
     {
@@ -124,7 +134,11 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     {
         Gpu::Stage stage(gpu_, "pressure");
         phi_ = pressure_.follow(std::move(phi_), motions(bodies));
-        phi_ = pressure_.solve(std::move(phi_), b, setup_.solver.cycles, boxes_);  // div (a grad phi) = b
+        phi_ = pressure_.solve(std::move(phi_), b,
+                               {.cycles = setup_.solver.cycles + (step_ == 0 ? kColdCycles : 0),
+                                .guess_scale = guess_scale,
+                                .cut = boxes_,
+                                .rough = rough});  // div (a grad phi) = b
     }
     {
         Gpu::Stage stage(gpu_, "project");

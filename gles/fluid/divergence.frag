@@ -3,9 +3,9 @@
 // reads   velocity    RGBA32F  Faces (nx+1, ny+1, nz+1)    [m/s]
 // reads   ax, ay, az  RGBA32F  Faces4                      fluid fraction (variant CUT)
 // writes  b           RGBA32F  Cells4 (nx, ny, nz)         [m/s]   times h^2: volume flowing out of the cell per second
-// fetches 13
+// fetches 13, CUT 19
 //
-// Variants: plain for cells away from solids; CUT (19 fetches) near them. Tank walls let nothing through.
+// Variants: plain for cells away from solids; CUT near them. Tank walls let nothing through.
 uniform sampler2D velocity;
 
 out vec4 b;

@@ -23,8 +23,8 @@ struct BodyMotion {
 /// fractions are averaged, and a coarse right-hand side is half the sum of eight fine residuals (four faces,
 /// twice the distance). Near bodies the sweeps read face fractions; elsewhere, one large draw without them.
 ///
-/// Two things make few cycles enough for a moving body, and cost next to nothing because they are drawn
-/// around it only: the last pressure is shifted along with the body before it serves as first guess
+/// Two things make few cycles enough for moving bodies and strong sources, and cost little because they are
+/// drawn around them only: the last pressure is shifted along with a body before it serves as first guess
 /// (follow.frag), and each cycle ends with two more sweeps there, where nearly all of the residual is.
 class Pressure {
   public:
@@ -34,9 +34,15 @@ class Pressure {
     /// Moves phi along with the bodies, to serve as first guess for where they are now; `boxes` as for
     /// solve().
     Field<Cells4> follow(Field<Cells4> phi, const std::vector<BodyMotion>& motions);
-    /// A better phi for right-hand side b after this many V-cycles. `boxes`: cells whose fractions may not
-    /// be 1.
-    Field<Cells4> solve(Field<Cells4> phi, const Field<Cells4>& b, int cycles, const std::vector<Box>& boxes);
+    struct Work {
+        int cycles = 2;            ///< V-cycles
+        float guess_scale = 1.0f;  ///< the first guess is this times phi, which grows with dt
+        std::vector<Box> cut{};    ///< cells whose fractions may not be 1
+        std::vector<Box>
+            rough{};  ///< those, and all where b jumps from cell to cell: swept twice more a cycle
+    };
+    /// A better phi for right-hand side b.
+    Field<Cells4> solve(Field<Cells4> phi, const Field<Cells4>& b, const Work& work);
 
   private:
     /// A pass in both variants: `plain` for the whole grid and `cut` for the boxes of solids over it.
@@ -56,10 +62,11 @@ class Pressure {
                Variant variant);
     void draw(Split& pass, std::size_t level, std::vector<Input> inputs, const std::vector<Uniform>& uniforms,
               const Texture& out, const std::vector<Box>& boxes);
-    Field<Cells4> sweep(std::size_t l, const Field<Cells4>& phi, const Field<Cells4>& b, float omega);
+    Field<Cells4> sweep(std::size_t l, const Field<Cells4>& phi, float scale, const Field<Cells4>& b,
+                        float omega);
     Field<Cells4> sweep_from_zero(std::size_t l, const Field<Cells4>& b, float omega);
-    void sweep_near(Field<Cells4>& phi, const Field<Cells4>& b, const std::vector<Box>& boxes);
-    Field<Cells4> cycle(std::size_t l, std::optional<Field<Cells4>> phi, const Field<Cells4>& b);
+    void sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std::vector<Box>& boxes);
+    Field<Cells4> cycle(std::size_t l, std::optional<Field<Cells4>> phi, float scale, const Field<Cells4>& b);
 
     Gpu* gpu_;
     const Fractions* fractions_;

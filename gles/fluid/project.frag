@@ -4,7 +4,7 @@
 // reads   phi         RGBA32F  Cells4 (nx, ny, nz)         [m/s]
 // reads   ax, ay, az  RGBA32F  Faces4                      variant CUT
 // writes  u           RGBA32F  Faces                       [m/s]
-// fetches 5
+// fetches 5, CUT 8, WALLS 15, CUT+WALLS 24
 //
 // Variants: plain away from solids; CUT near them; WALLS for the layers at the upper walls, where components that own no
 // face there repeat their neighbour (velocity.glsl).

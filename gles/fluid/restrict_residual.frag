@@ -3,7 +3,7 @@
 // reads   phi, b     RGBA32F  Cells4 of the FINE grid   [m/s]
 // reads   ax, ay, az RGBA32F  Faces4 of the fine grid   variant CUT
 // writes  b_coarse   RGBA32F  Cells4 of the coarse grid [m/s]
-// fetches 64
+// fetches 64, CUT 112
 //
 // The factor: a coarse cell's volume balance is the sum of eight fine ones, and both sides are written for a cell width
 // of 1, so that four faces over twice the distance weigh 2 (see pressure.h).

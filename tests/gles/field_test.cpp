@@ -16,7 +16,7 @@ concept Takes = std::is_convertible_v<Field<From>, Field<To>> || std::is_assigna
 template <class Phi, class B>
 concept Solves = requires(Pressure& pressure, Field<Phi> phi, const Field<B>& b,
                           const std::vector<Box>& boxes) {
-    pressure.solve(std::move(phi), b, 1, boxes);
+    pressure.solve(std::move(phi), b, {.cut = boxes});
 };
 template <class Phi>
 concept Pushes = requires(Traction& traction, const Field<Phi>& phi, const FaceFractions& a,

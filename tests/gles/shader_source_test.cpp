@@ -104,6 +104,17 @@ TEST(ShaderLog, OfEachDriverIsTurnedIntoPathsAndLines) {
     for (const auto& [log, located] : logs) EXPECT_EQ(source.locate(log), located);
 }
 
+TEST(EmbeddedShader, DeclaresTheFetchesOfEachOfItsVariants) {
+    const auto smooth = [](const std::vector<std::string>& defined) {
+        return declared_fetches("gles/fluid/smooth.frag", defined);
+    };
+    EXPECT_EQ(smooth({}), 8) << "seven of phi, one of b";
+    EXPECT_EQ(smooth({"CELLS"}), 8) << "a switch the line does not name changes nothing";
+    EXPECT_EQ(smooth({"CUT"}), 14) << "and six fractions";
+    EXPECT_EQ(smooth({"FROM_ZERO"}), 1);
+    EXPECT_EQ(smooth({"FROM_ZERO", "CUT"}), 7);
+}
+
 TEST(EmbeddedShader, ShowsItsContractBeforeItsCode) {
     int shaders = 0;
     for (const EmbeddedFile& file : kShaders) {
