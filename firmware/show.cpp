@@ -40,6 +40,12 @@ Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange)
       fluid_(gles::make_fluid(gpu, fluid_setup(scene))),
       states_(motions_.at(0.0, scene.solver.dt_s)) {}
 
+void Show::warm_up() {
+    fluid_->step(scene_.solver.dt_s, states_, true);
+    fluid_->wait_result();
+    fluid_->reset();
+}
+
 void Show::update(Instant now, Seconds dt, bool diagnose) {
     const PoseSnapshot pose = exchange_.pose.newest();
     const double interval = figures_.steps > 0 ? Seconds(now - last_).count() : dt.count();

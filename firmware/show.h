@@ -24,6 +24,9 @@ class Show {
   public:
     Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange);
 
+    /// Takes a step and goes back to the start: drivers compile a shader when it is first drawn with, which
+    /// takes seconds on some and must not fall into the show.
+    void warm_up();
     /// One fluid update of dt ending at `now`; `diagnose` also measures the whole tank.
     void update(Instant now, Seconds dt, bool diagnose);
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.

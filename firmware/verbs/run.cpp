@@ -31,6 +31,7 @@ using namespace std::chrono_literals;
 /// A fluid step covers the time since the last one, but never more: after a stall the fluid loses time
 /// instead of leaping.
 constexpr Seconds kLongestStep{0.1};
+constexpr Seconds kSlowWarmUp{2.0};  // worth a line
 constexpr Seconds kShortestStep{0.001};
 /// A latched force comes back by itself once its cause has been gone for this long; it is brought in gently.
 constexpr Instant kLatchRest = 3s;
@@ -131,6 +132,8 @@ class Run {
         if (std::filesystem::is_directory(folder)) status_file_ = folder / "status.json";
     }
 
+    /// Draws everything once, before the clock starts.
+    void warm_up();
     void real();
     void stepped();
     /// Completes the recording.
@@ -177,6 +180,15 @@ class Run {
     double clock_s_ = 0.0, wall_s_ = 0.0;
     Progress progress_{"run"};
 };
+
+void Run::warm_up() {
+    const RealClock clock;
+    show_.warm_up();
+    if (renderer_) renderer_->draw(show_.fluid(), show_.bodies());
+    gles::finish();
+    if (const Seconds took = clock.now(); took > kSlowWarmUp)
+        fmt::print(stderr, "run: the driver took {:.1f} s to prepare its shaders\n", took.count());
+}
 
 void Run::fluid_update(Instant now, Seconds dt) {
     const bool measure = show_.figures().steps % kMeasureEvery == kMeasureEvery / 2;
@@ -374,6 +386,7 @@ int run(const RunOptions& options) {
     if (!options.record.empty()) prepare_folder("--record", options.record);
     if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);
     Run run(options, exhibit, scene, std::move(device), open_headless());
+    run.warm_up();
     if (options.clock == ClockChoice::Real)
         run.real();
     else
