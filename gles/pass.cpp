@@ -64,6 +64,10 @@ std::string declarations(const AtlasLayout& target, const Variant& variant) {
 
 }  // namespace
 
+std::string glsl(const glm::ivec3& v) {
+    return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z);
+}
+
 Region Region::packed(std::vector<Box> boxes) {
     for (Box& box : boxes) {
         box.lo.z = box.lo.z / 4;

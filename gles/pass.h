@@ -39,6 +39,9 @@ class Region {
     std::vector<Box> boxes_;
 };
 
+/// GLSL for a constant.
+std::string glsl(const glm::ivec3& v);
+
 /// What a variant of a shader is compiled with: layouts the shader names, and switches.
 struct Variant {
     std::vector<std::pair<std::string, AtlasLayout>> layouts{};

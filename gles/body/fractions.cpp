@@ -5,10 +5,6 @@
 namespace eddy::gles {
 namespace {
 
-std::string ivec3_text(const glm::ivec3& v) {
-    return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z);
-}
-
 /// A face belongs to the two cells at its sides: a box of cells touches one layer of faces more at its upper
 /// side.
 Box faces_of(const Box& cells) {
@@ -28,7 +24,7 @@ Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::
                               "gles/body/coarsen_fractions.frag", Faces4::layout(grids[l + 1]),
                               Variant{.layouts = {{"FINE", Faces4::layout(grids[l])}},
                                       .defines = {{"FINE_LAYERS", fmt::format("{}", grids[l].z + 1)},
-                                                  {"FINE_CELLS", ivec3_text(grids[l])}}});
+                                                  {"FINE_CELLS", glsl(grids[l])}}});
 }
 
 void Fractions::update(const BodyUniforms& bodies, const std::vector<Box>& boxes) {

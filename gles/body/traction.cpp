@@ -11,7 +11,7 @@ Traction::Traction(Gpu& gpu, const glm::ivec3& cells, double cell_m, const std::
                    int target_width)
     : gpu_(&gpu), cell_m_(cell_m) {
     const Variant variant{.layouts = {{"PHI", Cells4::layout(cells)}, {"FRACTION", Faces4::layout(cells)}},
-                          .defines = {{"CELLS", fmt::format("ivec3({}, {}, {})", cells.x, cells.y, cells.z)}},
+                          .defines = {{"CELLS", glsl(cells)}},
                           .declarations = shape_declarations(bodies)};
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (!bodies[i].force && !bodies[i].torque) continue;

@@ -13,16 +13,12 @@ namespace {
 /// impulse, and comes out right (2 cycles alone: 2 % low; 5: within 0.02 % of the converged one).
 constexpr int kColdCycles = 3;
 
-std::string ivec3_text(const glm::ivec3& v) {
-    return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z);
-}
-
 /// What the passes between faces and cells are compiled with.
 Variant grid_variant(const FluidSetup& setup, bool cut, bool walls = false) {
     Variant v{.layouts = {{"FACES", Faces::layout(setup.cells)},
                           {"PHI", Cells4::layout(setup.cells)},
                           {"FRACTION", Faces4::layout(setup.cells)}},
-              .defines = {{"CELLS", ivec3_text(setup.cells)}}};
+              .defines = {{"CELLS", glsl(setup.cells)}}};
     if (cut) {
         v.defines.emplace_back("CUT", "");
         v.declarations = shape_declarations(setup.bodies);
@@ -37,16 +33,6 @@ Region upper_walls(const glm::ivec3& n) {
         {{{n.x, 0, 0}, n + 1}, {{0, n.y, 0}, {n.x, n.y + 1, n.z + 1}}, {{0, 0, n.z}, {n.x, n.y, n.z + 1}}});
 }
 
-/// Texels of the results row: force and moment of each body, then the diagnosis.
-int results_width(const FluidSetup& setup) {
-    return 2 * static_cast<int>(setup.bodies.size()) + 1;
-}
-
-bool measures(const FluidSetup& setup) {
-    return std::any_of(setup.bodies.begin(), setup.bodies.end(),
-                       [](const BodySetup& b) { return b.force || b.torque; });
-}
-
 }  // namespace
 
 CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
@@ -54,7 +40,6 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
       gpu_(gpu),
       u_(gpu, setup_.cells, Format::RGBA32F),
       phi_(gpu, setup_.cells, Format::RGBA32F),
-      results_(gpu.textures().lease({results_width(setup_), 1}, Format::RGBA32F)),
       advect_(gpu, setup_.cells, setup_.cell_m, setup_.solver.advection),
       fractions_(
           setup_.bodies.empty()
@@ -68,15 +53,15 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
                grid_variant(setup_, false)),
       project_walls_(gpu, "project at walls", "gles/fluid/project.frag", Faces::layout(setup_.cells),
                      grid_variant(setup_, fractions_.has_value(), true)),
-      readback_(gpu, {results_width(setup_), 1}) {
+      results_(gpu, setup_) {
     if (fractions_) {
         divergence_cut_.emplace(gpu, "divergence cut", "gles/fluid/divergence.frag",
                                 Cells4::layout(setup_.cells), grid_variant(setup_, true));
         project_cut_.emplace(gpu, "project cut", "gles/fluid/project.frag", Faces::layout(setup_.cells),
                              grid_variant(setup_, true));
     }
-    if (measures(setup_))
-        traction_.emplace(gpu, setup_.cells, setup_.cell_m, setup_.bodies, results_width(setup_));
+    if (Results::measures(setup_))
+        traction_.emplace(gpu, setup_.cells, setup_.cell_m, setup_.bodies, Results::width(setup_));
     if (setup_.smoke) advect_smoke_.emplace(gpu, setup_);
     for (const SourceSetup& source : setup_.sources)
         if (source.velocity_m_s && !drive_)
@@ -94,7 +79,7 @@ void CutCellFluid::reset() {
         smoke_ = Field<Cells>(gpu_, n, Format::R32F);
         clear(smoke_->texture());
     }
-    while (readback_.under_way() > 0) readback_.take(true);
+    results_.forget();
     before_.clear();
     step_ = 0;
     time_s_ = 0.0;
@@ -151,7 +136,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     if (traction_) {
         Gpu::Stage stage(gpu_, "force");
         traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_,
-                        *results_);  // F = int p grad(1 - a)
+                        results_.row());  // F = int p grad(1 - a)
     }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
@@ -159,8 +144,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     }
     if (traction_ || wants_diagnosis) {
         Gpu::Stage stage(gpu_, "read back");
-        asked_[static_cast<std::size_t>(step_) % asked_.size()] = {dt_s, wants_diagnosis};
-        readback_.request(*results_, step_);
+        results_.request(step_, dt_s, wants_diagnosis);
     }
 }
 
@@ -225,7 +209,7 @@ void CutCellFluid::diagnose(const Field<Cells4>& before) {
         const glm::ivec2 columns(setup_.cells.x, setup_.cells.y);
         diagnose_.emplace(gpu_, "diagnose", "gles/fluid/diagnose.frag",
                           AtlasLayout{{columns.x, columns.y, 1}, 1}, variant);
-        reduce_diagnosis_.emplace(gpu_, "reduce diagnosis", columns, glm::ivec2(results_width(setup_), 1),
+        reduce_diagnosis_.emplace(gpu_, "reduce diagnosis", columns, glm::ivec2(Results::width(setup_), 1),
                                   "vec4(1.0, 0.0, 0.0, 1.0)");
     }
     const Field<Cells4> after = divergence(u_);
@@ -235,30 +219,7 @@ void CutCellFluid::diagnose(const Field<Cells4>& before) {
         {"velocity", &u_.texture()}, {"divergence", &after.texture()}, {"before", &before.texture()}};
     if (smoke_) inputs.push_back({"smoke", &smoke_->texture()});
     diagnose_->draw(inputs, {}, {&*columns});
-    reduce_diagnosis_->draw(*columns, *results_, {results_width(setup_) - 1, 0});
-}
-
-std::optional<StepResult> CutCellFluid::result(bool wait) {
-    const auto got = readback_.take(wait);
-    if (!got) return std::nullopt;
-    const Asked& asked = asked_[static_cast<std::size_t>(got->tag) % asked_.size()];
-    const double h = setup_.cell_m;
-    const double newton = setup_.density_kg_m3 * h * h * h / asked.dt_s;
-
-    StepResult result;
-    result.step = got->tag;
-    for (std::size_t i = 0; i < setup_.bodies.size(); ++i) {
-        Load load;
-        if (setup_.bodies[i].force) load.force_n = newton * glm::dvec3(got->texels[2 * i]);
-        if (setup_.bodies[i].torque) load.torque_nm = newton * h * glm::dvec3(got->texels[2 * i + 1]);
-        result.loads.push_back(load);
-    }
-    if (asked.diagnosed) {
-        const glm::dvec4 d(got->texels.back());
-        result.diagnostics =
-            Diagnostics{d.w / h, d.x / h, 0.5 * setup_.density_kg_m3 * h * h * h * d.y, d.z * h * h * h};
-    }
-    return result;
+    reduce_diagnosis_->draw(*columns, results_.row(), Results::diagnosis_texel(setup_));
 }
 
 std::vector<glm::vec3> CutCellFluid::velocity() const {

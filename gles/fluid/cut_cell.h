@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <optional>
 
 #include "gles/body/fractions.h"
@@ -7,7 +6,7 @@
 #include "gles/fluid/fluid.h"
 #include "gles/fluid/pressure.h"
 #include "gles/fluid/transport.h"
-#include "gles/readback.h"
+#include "gles/fluid/results.h"
 
 namespace eddy::gles {
 
@@ -18,7 +17,7 @@ class CutCellFluid final : public Fluid {
     CutCellFluid(Gpu& gpu, FluidSetup setup);
 
     void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
-    std::optional<StepResult> result(bool wait) override;
+    std::optional<StepResult> result(bool wait) override { return results_.take(wait); }
     long steps() const override { return step_; }
     void reset() override;
     const Field<Cells>* smoke() const override { return smoke_ ? &*smoke_ : nullptr; }
@@ -38,7 +37,6 @@ class CutCellFluid final : public Fluid {
     Field<Faces> u_;                     // velocity, subtract_gradient          m/s       (nx+1, ny+1, nz+1)
     Field<Cells4> phi_;                  // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
     std::optional<Field<Cells>> smoke_;  // density, SmokeTransport              1         (nx, ny, nz)
-    TexturePool::Lease results_;         // loads and diagnostics, one row       see Traction
     std::vector<BodyState> before_;      // bodies at the end of the last step
     std::vector<Box> boxes_;             // cells near each body, this step
     long step_ = 0;
@@ -59,14 +57,7 @@ class CutCellFluid final : public Fluid {
     std::optional<Traction> traction_;
     std::optional<Pass> diagnose_;
     std::optional<Reduce> reduce_diagnosis_;
-    Readback readback_;
-
-    /// What turns the numbers of a step under way into SI, and whether it was diagnosed.
-    struct Asked {
-        double dt_s;
-        bool diagnosed;
-    };
-    std::array<Asked, 8> asked_{};
+    Results results_;  // loads and diagnosis
 };
 
 }  // namespace eddy::gles

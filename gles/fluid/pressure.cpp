@@ -21,10 +21,6 @@ const std::vector<float> kSmoother = chebyshev_weights(2, 1.0 / 3.0, 2.0);
 // On the coarsest grid they must solve: the slowest mode of 4 cells has (1 - cos(pi/4)) / 3 = 0.098.
 const std::vector<float> kSolver = chebyshev_weights(kCoarsestSweeps, 0.08, 2.0);
 
-std::string ivec3_text(const glm::ivec3& v) {
-    return fmt::format("ivec3({}, {}, {})", v.x, v.y, v.z);
-}
-
 }  // namespace
 
 std::vector<glm::ivec3> multigrid_levels(const glm::ivec3& n) {
@@ -67,7 +63,7 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
     if (fractions_) {
         const AtlasLayout finest = Cells4::layout(cells);
         follow_.emplace(gpu, "follow bodies", "gles/fluid/follow.frag", finest,
-                        Variant{.defines = {{"CELLS", ivec3_text(cells)}}});
+                        Variant{.defines = {{"CELLS", glsl(cells)}}});
         copy_back_.emplace(gpu, "copy back", "gles/copy.frag", finest);
     }
     for (std::size_t l = 0; l < grids.size(); ++l) {
@@ -83,7 +79,7 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
             make(gpu, "restrict residual", "gles/fluid/restrict_residual.frag", l, coarse, {}));
         Variant prolong;
         prolong.layouts = {{"COARSE", coarse}};
-        prolong.defines = {{"COARSE_CELLS", ivec3_text(grids[l + 1])}};
+        prolong.defines = {{"COARSE_CELLS", glsl(grids[l + 1])}};
         level.prolong.emplace(
             Split{Pass(gpu, fmt::format("prolong {}", l), "gles/fluid/prolong.frag", here, prolong), {}});
     }
@@ -94,7 +90,7 @@ Pressure::Split Pressure::make(Gpu& gpu, const char* name, const char* shader, s
     const glm::ivec3 n = levels_[l].cells;
     variant.layouts.emplace_back("PHI", Cells4::layout(n));
     variant.layouts.emplace_back("FRACTION", Faces4::layout(n));
-    variant.defines.emplace_back("CELLS", ivec3_text(n));
+    variant.defines.emplace_back("CELLS", glsl(n));
     const glm::vec3 covered =
         glm::vec3(levels_[0].cells) / std::exp2(static_cast<float>(l)) - glm::vec3(n - 1);
     Variant cut = variant;

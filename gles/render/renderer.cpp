@@ -20,7 +20,7 @@ Variant scene_variant(const FluidSetup& fluid) {
     Variant v{
         .layouts = {{"SMOKE_CELLS", Cells::layout(fluid.cells)}, {"LIGHT", Cells::layout(half(fluid.cells))}},
         .defines = {
-            {"CELLS", fmt::format("ivec3({}, {}, {})", fluid.cells.x, fluid.cells.y, fluid.cells.z)}}};
+            {"CELLS", glsl(fluid.cells)}}};
     if (fluid.smoke) v.defines.emplace_back("SMOKE", "");
     if (!fluid.bodies.empty()) {
         v.defines.emplace_back("BODY", "");

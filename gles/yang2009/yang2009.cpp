@@ -10,16 +10,6 @@
 namespace eddy::gles {
 namespace {
 
-/// Texels of the results row: force and moment of each body, then the diagnosis.
-int results_width(const FluidSetup& setup) {
-    return 2 * static_cast<int>(setup.bodies.size()) + 1;
-}
-
-bool measures(const FluidSetup& setup) {
-    return std::any_of(setup.bodies.begin(), setup.bodies.end(),
-                       [](const BodySetup& b) { return b.force || b.torque; });
-}
-
 }  // namespace
 
 Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
@@ -27,7 +17,6 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
       gpu_(gpu),
       u_(gpu, setup_.cells, Format::RGBA32F),
       phi_(gpu, setup_.cells, Format::R32F),
-      results_(gpu.textures().lease({results_width(setup_), 1}, Format::RGBA32F)),
       voxels_(setup_.bodies.empty() ? std::optional<Voxels>()
                                     : std::optional<Voxels>(std::in_place, gpu, setup_.cells, setup_.bodies)),
       body_uniforms_(setup_.bodies, setup_.cell_m),
@@ -37,9 +26,9 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
                   obstacle_variant(voxels())),
       pressure_(gpu, setup_.cells, voxels()),
       project_(gpu, "project", "gles/yang2009/project.frag", u_.layout(), obstacle_variant(voxels())),
-      readback_(gpu, {results_width(setup_), 1}) {
-    if (measures(setup_))
-        force_.emplace(gpu, setup_.cells, setup_.cell_m, setup_.bodies, results_width(setup_));
+      results_(gpu, setup_) {
+    if (Results::measures(setup_))
+        force_.emplace(gpu, setup_.cells, setup_.cell_m, setup_.bodies, Results::width(setup_));
     for (const SourceSetup& source : setup_.sources) {
         if (source.velocity_m_s && !drive_)
             drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", u_.layout());
@@ -67,7 +56,7 @@ void Yang2009Fluid::reset() {
         smoke_ = Field<Cells>(gpu_, n, Format::R32F);
         clear(smoke_->texture());
     }
-    while (readback_.under_way() > 0) readback_.take(true);
+    results_.forget();
     step_ = 0;
     time_s_ = 0.0;
 }
@@ -105,7 +94,7 @@ void Yang2009Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool
     time_s_ += dt_s;
     if (force_) {
         Gpu::Stage stage(gpu_, "force");
-        force_->draw(phi_, *voxels_, body_uniforms_, bodies, *results_);  // F = sum -p n dA
+        force_->draw(phi_, *voxels_, body_uniforms_, bodies, results_.row());  // F = sum -p n dA
     }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
@@ -113,8 +102,7 @@ void Yang2009Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool
     }
     if (force_ || wants_diagnosis) {
         Gpu::Stage stage(gpu_, "read back");
-        asked_[static_cast<std::size_t>(step_) % asked_.size()] = {dt_s, wants_diagnosis};
-        readback_.request(*results_, step_);
+        results_.request(step_, dt_s, wants_diagnosis);
     }
 }
 
@@ -178,7 +166,7 @@ void Yang2009Fluid::diagnose(const Field<Cells>& before) {
         if (smoke_) variant.defines.emplace_back("SMOKE", "");
         diagnose_.emplace(gpu_, "diagnose", "gles/yang2009/diagnose.frag",
                           AtlasLayout{{columns.x, columns.y, 1}, 1}, variant);
-        reduce_diagnosis_.emplace(gpu_, "reduce diagnosis", columns, glm::ivec2(results_width(setup_), 1),
+        reduce_diagnosis_.emplace(gpu_, "reduce diagnosis", columns, glm::ivec2(Results::width(setup_), 1),
                                   "vec4(1.0, 0.0, 0.0, 1.0)");
     }
     const Field<Cells> after = divergence(u_);
@@ -187,32 +175,7 @@ void Yang2009Fluid::diagnose(const Field<Cells>& before) {
         {{"velocity", &u_.texture()}, {"divergence", &after.texture()}, {"before", &before.texture()}});
     if (smoke_) inputs.push_back({"smoke", &smoke_->texture()});
     diagnose_->draw(inputs, {}, {&*sums});
-    reduce_diagnosis_->draw(*sums, *results_, {results_width(setup_) - 1, 0});
-}
-
-std::optional<StepResult> Yang2009Fluid::result(bool wait) {
-    const auto got = readback_.take(wait);
-    if (!got) return std::nullopt;
-    const Asked& asked = asked_[static_cast<std::size_t>(got->tag) % asked_.size()];
-    const double h = setup_.cell_m;
-    // u = u* - dt/rho grad p with grad p = (p_{+} - p_{-}) / 2h makes phi = dt p / (rho h), and p h^2 = phi
-    // rho h^3 / dt.
-    const double newton = setup_.density_kg_m3 * h * h * h / asked.dt_s;
-
-    StepResult result;
-    result.step = got->tag;
-    for (std::size_t i = 0; i < setup_.bodies.size(); ++i) {
-        Load load;
-        if (setup_.bodies[i].force) load.force_n = newton * glm::dvec3(got->texels[2 * i]);
-        if (setup_.bodies[i].torque) load.torque_nm = newton * h * glm::dvec3(got->texels[2 * i + 1]);
-        result.loads.push_back(load);
-    }
-    if (asked.diagnosed) {
-        const glm::dvec4 d(got->texels.back());
-        result.diagnostics =
-            Diagnostics{d.w / h, d.x / h, 0.5 * setup_.density_kg_m3 * h * h * h * d.y, d.z * h * h * h};
-    }
-    return result;
+    reduce_diagnosis_->draw(*sums, results_.row(), Results::diagnosis_texel(setup_));
 }
 
 std::vector<glm::vec3> Yang2009Fluid::velocity() const {

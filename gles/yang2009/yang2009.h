@@ -1,10 +1,9 @@
 #pragma once
-#include <array>
 #include <optional>
 
 #include "gles/fluid/fluid.h"
 #include "gles/fluid/transport.h"
-#include "gles/readback.h"
+#include "gles/fluid/results.h"
 #include "gles/reduce.h"
 #include "gles/yang2009/force.h"
 #include "gles/yang2009/jacobi.h"
@@ -25,7 +24,7 @@ class Yang2009Fluid final : public Fluid {
     Yang2009Fluid(Gpu& gpu, FluidSetup setup);
 
     void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
-    std::optional<StepResult> result(bool wait) override;
+    std::optional<StepResult> result(bool wait) override { return results_.take(wait); }
     long steps() const override { return step_; }
     void reset() override;
     const Field<Cells>* smoke() const override { return smoke_ ? &*smoke_ : nullptr; }
@@ -50,7 +49,6 @@ class Yang2009Fluid final : public Fluid {
     Field<Cells> u_;                     // velocity, subtract_gradient          m/s       (nx, ny, nz)
     Field<Cells> phi_;                   // dt p / (rho h), Jacobi               m/s       (nx, ny, nz)
     std::optional<Field<Cells>> smoke_;  // density, advect_smoke                1         (nx, ny, nz)
-    TexturePool::Lease results_;         // loads and diagnostics, one row       see VoxelForce
     long step_ = 0;
     double time_s_ = 0.0;
     double dt_s_ = 0.0;
@@ -69,14 +67,7 @@ class Yang2009Fluid final : public Fluid {
     std::optional<VoxelForce> force_;
     std::optional<Pass> diagnose_;
     std::optional<Reduce> reduce_diagnosis_;
-    Readback readback_;
-
-    /// What turns the numbers of a step under way into SI, and whether it was diagnosed.
-    struct Asked {
-        double dt_s;
-        bool diagnosed;
-    };
-    std::array<Asked, 8> asked_{};
+    Results results_;  // loads and diagnosis
 };
 
 }  // namespace eddy::gles

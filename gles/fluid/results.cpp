@@ -1,0 +1,54 @@
+#include "gles/fluid/results.h"
+
+#include <algorithm>
+
+namespace eddy::gles {
+
+int Results::width(const FluidSetup& setup) {
+    return 2 * static_cast<int>(setup.bodies.size()) + 1;
+}
+
+bool Results::measures(const FluidSetup& setup) {
+    return std::any_of(setup.bodies.begin(), setup.bodies.end(),
+                       [](const BodySetup& b) { return b.force || b.torque; });
+}
+
+Results::Results(Gpu& gpu, const FluidSetup& setup)
+    : setup_(&setup),
+      row_(gpu.textures().lease({width(setup), 1}, Format::RGBA32F)),
+      readback_(gpu, {width(setup), 1}) {}
+
+void Results::request(long step, double dt_s, bool diagnosed) {
+    asked_[static_cast<std::size_t>(step) % asked_.size()] = {dt_s, diagnosed};
+    readback_.request(*row_, step);
+}
+
+void Results::forget() {
+    while (readback_.under_way() > 0) readback_.take(true);
+}
+
+std::optional<StepResult> Results::take(bool wait) {
+    const auto got = readback_.take(wait);
+    if (!got) return std::nullopt;
+    const Asked& asked = asked_[static_cast<std::size_t>(got->tag) % asked_.size()];
+    const double h = setup_->cell_m, volume = h * h * h;
+    // With phi = dt p / (rho h):  p h^2 = phi rho h^3 / dt.
+    const double newton = setup_->density_kg_m3 * volume / asked.dt_s;
+
+    StepResult result;
+    result.step = got->tag;
+    for (std::size_t i = 0; i < setup_->bodies.size(); ++i) {
+        Load load;
+        if (setup_->bodies[i].force) load.force_n = newton * glm::dvec3(got->texels[2 * i]);
+        if (setup_->bodies[i].torque) load.torque_nm = newton * h * glm::dvec3(got->texels[2 * i + 1]);
+        result.loads.push_back(load);
+    }
+    if (asked.diagnosed) {
+        const glm::dvec4 d(got->texels.back());
+        result.diagnostics =
+            Diagnostics{d.w / h, d.x / h, 0.5 * setup_->density_kg_m3 * volume * d.y, d.z * volume};
+    }
+    return result;
+}
+
+}  // namespace eddy::gles
