@@ -32,6 +32,20 @@ class Printer {
                  const Range& range = {}) {
         value(key, field, doc, range);
     }
+    template <class T>
+    void conditional(std::string_view key, const T& field, bool applies, std::string_view /*rule*/,
+                     std::string_view doc, const Range& range = {}) {
+        if (applies) value(key, field, doc, range);
+    }
+    template <class Struct>
+    void word_or_table(std::string_view key, Struct& field, std::string_view doc) {
+        Struct word_alone{};
+        word_alone.kind = field.kind;
+        if (field == word_alone)
+            value(key, field.kind, doc);
+        else
+            table(key, field, doc);
+    }
     template <class Struct>
     void table(std::string_view key, Struct& field, std::string_view /*doc*/) {
         nested(std::string(key), key, "[", "]", field);

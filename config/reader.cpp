@@ -124,29 +124,38 @@ bool Reader::read(const Node& node, const std::string& path, double& field, cons
 }
 
 bool Reader::read(const Node& node, const std::string& path, glm::ivec3& field, const Range& range) {
-    if (node.kind != Node::Kind::List || node.children.size() != 3) {
-        wrong_type(node, path, type_name(field));
-        return false;
-    }
-    glm::ivec3 v{0};
-    const bool x = read(node.children[0], path + ".0", v.x, range);
-    const bool y = read(node.children[1], path + ".1", v.y, range);
-    const bool z = read(node.children[2], path + ".2", v.z, range);
-    if (x && y && z) field = v;
-    return x && y && z;
+    return read_vector(node, path, field, range);
 }
 
 bool Reader::read(const Node& node, const std::string& path, glm::dvec3& field, const Range& range) {
-    if (node.kind != Node::Kind::List || node.children.size() != 3) {
+    return read_vector(node, path, field, range);
+}
+
+bool Reader::read(const Node& node, const std::string& path, FormulaVector& field, const Range& range) {
+    return read_vector(node, path, field, range);
+}
+
+bool Reader::read(const Node& node, const std::string& path, Formula& field, const Range& range) {
+    if (!is_number(node) && node.kind != Node::Kind::Text) {
         wrong_type(node, path, type_name(field));
         return false;
     }
-    glm::dvec3 v{0.0};
-    const bool x = read(node.children[0], path + ".0", v.x, range);
-    const bool y = read(node.children[1], path + ".1", v.y, range);
-    const bool z = read(node.children[2], path + ".2", v.z, range);
-    if (x && y && z) field = v;
-    return x && y && z;
+    Formula found;
+    try {
+        found = is_number(node) ? Formula(number(node)) : Formula::parse(node.text);
+    } catch (const FormulaError& error) {
+        findings_.blame(node.place, path,
+                        fmt::format("no good formula, at its character {}: {}", error.column, error.what()));
+        return false;
+    }
+    // What varies is known only where and when it is evaluated.
+    const std::string why = found.constant() ? objection(*found.constant(), range) : "";
+    if (!why.empty()) {
+        findings_.blame(node.place, path, why);
+        return false;
+    }
+    field = found;
+    return true;
 }
 
 bool Reader::read(const Node& node, const std::string& path, std::string& field, const Range&) {

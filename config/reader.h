@@ -24,8 +24,11 @@ struct Findings {
 ///   value      a key that may be absent
 ///   required   a key that must be there
 ///   derived    a key whose default follows from other keys, by the rule given in words
+///   conditional  a key that is there only when other keys say so (`applies`, and the rule in words); that
+///                it is there when it should be, and only then, is up to the checks after reading
 ///   table      a struct under [key]; when the field is std::optional, only if the table is there
-///   uniform    a struct of equal enums: a table, or one word that stands for all
+///   word_or_table  a struct whose key `kind` is a word: a table, or that word alone
+///   uniform    a struct of word_or_tables: a table, or one word that stands for all
 ///   list       structs under [[key]]
 class Reader {
   public:
@@ -56,6 +59,12 @@ class Reader {
         value(key, field, doc, range);
     }
 
+    template <class T>
+    void conditional(std::string_view key, T& field, bool /*applies*/, std::string_view /*rule*/,
+                     std::string_view doc, const Range& range = {}) {
+        value(key, field, doc, range);
+    }
+
     template <class Struct>
     void table(std::string_view key, Struct& field, std::string_view /*doc*/) {
         if (const Node* node = take(key)) read_table(*node, path_to(key), field);
@@ -64,6 +73,20 @@ class Reader {
     template <class Struct>
     void table(std::string_view key, std::optional<Struct>& field, std::string_view /*doc*/) {
         if (const Node* node = take(key)) read_table(*node, path_to(key), field.emplace());
+    }
+
+    template <class Struct>
+    void word_or_table(std::string_view key, Struct& field, std::string_view /*doc*/) {
+        const Node* node = take(key);
+        if (!node) return;
+        findings_.origins[path_to(key)] = node->place;
+        if (node->kind == Node::Kind::Table) return read_table(*node, path_to(key), field);
+        if (node->kind == Node::Kind::Text)
+            read(*node, path_to(key), field.kind, {});
+        else
+            wrong_type(
+                *node, path_to(key),
+                fmt::format("a table, or one of the words {}", listed(all_words<decltype(field.kind)>())));
     }
 
     template <class Enum, class Struct>
@@ -109,8 +132,25 @@ class Reader {
     bool read(const Node& node, const std::string& path, double& field, const Range& range);
     bool read(const Node& node, const std::string& path, glm::ivec3& field, const Range& range);
     bool read(const Node& node, const std::string& path, glm::dvec3& field, const Range& range);
+    bool read(const Node& node, const std::string& path, Formula& field, const Range& range);
+    bool read(const Node& node, const std::string& path, FormulaVector& field, const Range& range);
     bool read(const Node& node, const std::string& path, std::string& field, const Range& range);
     bool read(const Node& node, const std::string& path, std::filesystem::path& field, const Range& range);
+
+    // Three components in a list; the field changes only if all are good.
+    template <class Vector>
+    bool read_vector(const Node& node, const std::string& path, Vector& field, const Range& range) {
+        if (node.kind != Node::Kind::List || node.children.size() != 3) {
+            wrong_type(node, path, type_name(field));
+            return false;
+        }
+        Vector v = field;
+        const bool x = read(node.children[0], path + ".0", v.x, range);
+        const bool y = read(node.children[1], path + ".1", v.y, range);
+        const bool z = read(node.children[2], path + ".2", v.z, range);
+        if (x && y && z) field = v;
+        return x && y && z;
+    }
 
     template <class T>
     bool read(const Node& node, const std::string& path, std::optional<T>& field, const Range& range) {

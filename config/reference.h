@@ -1,4 +1,6 @@
 #pragma once
+#include <utility>
+
 #include "config/value.h"
 
 namespace eddy {
@@ -27,6 +29,22 @@ class Reference {
     void derived(std::string_view key, const T&, std::string_view rule, std::string_view doc,
                  const Range& range = {}) {
         row<T>(key, range, rule, doc);
+    }
+    template <class T>
+    void conditional(std::string_view key, const T&, bool /*applies*/, std::string_view rule,
+                     std::string_view doc, const Range& range = {}) {
+        row<T>(key, range, rule, doc);
+    }
+    template <class Struct>
+    void word_or_table(std::string_view key, Struct& field, std::string_view doc) {
+        add_row(key, "a word or a table", "", code(to_toml(field.kind)), doc, "");
+        // The first of its kind is described in full.
+        if (std::exchange(described_, true)) return;
+        nested(
+            key, "[", "]",
+            fmt::format("A table in place of the word, shown for `{}`; the keys beside it can hold the same.",
+                        key),
+            field);
     }
     template <class Struct>
     void table(std::string_view key, Struct& field, std::string_view doc) {
@@ -68,7 +86,8 @@ class Reference {
         if constexpr (Worded<T>) {
             std::string out;
             for (const Word<T>& w : words_of(T{}))
-                out += fmt::format("{}`{}` {}", out.empty() ? "" : "; ", w.word, w.doc);
+                out += fmt::format("{}`{}`{}{}", out.empty() ? "" : "; ", w.word, w.doc.empty() ? "" : " ",
+                                   w.doc);
             return out;
         } else if constexpr (requires { requires Worded<typename T::value_type>; }) {
             return words<typename T::value_type>();
@@ -86,6 +105,7 @@ class Reference {
         tables_ += fmt::format("\n## `{}{}{}{}`\n\n{}\n\n{}", open, header_, key, close, doc, inside.text());
     }
 
+    bool described_ = false;  // a word_or_table
     std::string header_;
     std::string rows_;
     std::string tables_;

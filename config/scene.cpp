@@ -33,6 +33,7 @@ LoadedScene read_scene_in(const std::filesystem::path& folder, std::string_view 
     read_document(document, loaded.scene, findings);
     resolve(loaded.scene, findings.origins, folder);
     check(loaded.scene, findings);
+    refuse_what_is_not_in_this_version(loaded.scene, findings);
     if (!findings.diagnostics.empty()) throw ConfigError(std::move(findings.diagnostics));
     loaded.origins = std::move(findings.origins);
     return loaded;
@@ -69,6 +70,22 @@ LoadedScene read_scene(std::string_view text, const std::string& file,
     return read_scene_in(std::filesystem::path(file).parent_path(), text, file, overrides);
 }
 
+bool holds_a_scene(const std::string& file) {
+    const Node document = parse_toml(read_file(file), file);
+    return std::any_of(document.children.begin(), document.children.end(), [](const Node& entry) {
+        return entry.kind == Node::Kind::Table || entry.kind == Node::Kind::List || entry.key == "title" ||
+               entry.key == "description";
+    });
+}
+
+std::vector<glm::dvec3> Scene::Probe::places_m() const {
+    if (point_m) return {*point_m};
+    std::vector<glm::dvec3> places;
+    for (int i = 0; i < *points; ++i)
+        places.push_back(glm::mix(*from_m, *to_m, static_cast<double>(i) / (*points - 1)));
+    return places;
+}
+
 std::string print_scene(Scene scene, const Origins* origins) {
     Printer printer(origins);
     describe(printer, scene);
@@ -79,7 +96,7 @@ std::string schema_reference() {
     Reference reference;
     Scene scene;
     describe(reference, scene);
-    return reference.text();
+    return reference.text() + "\n## Formulas\n\n" + formula_guide() + "\n";
 }
 
 }  // namespace eddy

@@ -1,5 +1,7 @@
 #pragma once
+#include "config/body_schema.h"
 #include "config/scene.h"
+#include "config/tank_schema.h"
 
 // The scene file, described once: each key with its meaning and range. The defaults are in scene.h. Every
 // visitor (Reader, Printer, Reference) walks these functions.
@@ -7,91 +9,20 @@
 namespace eddy {
 
 template <class Visitor>
-void describe(Visitor& v, Scene::Walls& w) {
-    v.value("x_low", w.x_low, "left");
-    v.value("x_high", w.x_high, "right");
-    v.value("y_low", w.y_low, "floor");
-    v.value("y_high", w.y_high, "lid");
-    v.value("z_low", w.z_low, "back");
-    v.value("z_high", w.z_high, "front, towards the visitor");
-}
-
-template <class Visitor>
-void describe(Visitor& v, Scene::Tank& t) {
-    v.value("size_m", t.size_m, "inner size along x (right), y (up), z (towards the visitor)",
-            above(0, 1000));
-    v.value("cells", t.cells,
-            "how many cells it is divided into; size_m / cells must be the same along x, y and z",
-            between(4, 512));
-    v.template uniform<WallKind>("walls", t.walls, "What each wall does to the fluid.");
-}
-
-template <class Visitor>
-void describe(Visitor& v, Scene::Fluid& f) {
-    v.value("density_kg_m3", f.density_kg_m3, "air 1.2, water 1000; forces grow in proportion",
-            above(0, 1e5));
-}
-
-template <class Visitor>
-void describe(Visitor& v, Scene::Smoke& s) {
-    v.value("dissipation_1_s", s.dissipation_1_s,
-            "rate at which smoke fades: it falls to 1/e in 1 / dissipation_1_s", between(0, 1e3));
-}
-
-template <class Visitor>
-void describe(Visitor& v, Scene::Source& s) {
-    v.derived("name", s.name, "`source1`, `source2`, ...", "letters, digits, - and _; starts with a letter");
-    v.required("centre_m", s.centre_m, "middle of the ball in which the source works");
-    v.required("radius_m", s.radius_m, "radius of that ball", above(0, 1000));
-    v.value("smoke_per_s", s.smoke_per_s, "how fast smoke thickens in the ball; needs [smoke]",
-            between(0, 1e6));
-    v.value("velocity_m_s", s.velocity_m_s, "a jet: the fluid in the ball is driven to this velocity");
-    v.value("start_s", s.start_s, "when it starts to work", at_least(0));
-    v.value("stop_s", s.stop_s, "when it stops; never, if absent", above(0));
-}
-
-template <class Visitor>
-void describe(Visitor& v, Scene::Oscillation& o) {
-    v.required("amplitude_m", o.amplitude_m, "the body swings this far to either side of its path");
-    v.required("frequency_hz", o.frequency_hz, "swings in a second", above(0, 1e4));
-    v.value("phase_rad", o.phase_rad, "0 starts in the middle, at full speed");
-}
-
-template <class Visitor>
-void describe(Visitor& v, Scene::Body& b) {
-    v.derived("name", b.name, "`body1`, `body2`, ...", "letters, digits, - and _; starts with a letter");
-    v.value("shape", b.shape, "what it looks like");
-    v.required("radius_m", b.radius_m, "radius of the sphere", above(0, 1000));
-    v.derived("centre_m", b.centre_m, "held: centre_m of [haptics]; else must be given",
-              "where it starts; for a held body, where it waits for the hand");
-    v.value("motion", b.motion, "who moves it");
-    v.value("velocity_m_s", b.velocity_m_s, "prescribed only: steady part of its velocity");
-    v.value("acceleration_m_s2", b.acceleration_m_s2, "prescribed only: steady acceleration");
-    v.value("spin_rad_s", b.spin_rad_s, "prescribed only: angular velocity about its centre");
-    v.value("path_csv", b.path_csv,
-            "prescribed only: a file of displacements from centre_m, added to the rest; relative to the "
-            "scene file");
-    v.value("start_s", b.start_s, "prescribed only: it rests until then, and its time counts from then",
-            at_least(0));
-    v.value("force", b.force, "measure the force on it");
-    v.value("torque", b.torque, "measure the torque on it, about its centre");
-    v.table("oscillation", b.oscillation, "Prescribed only: a swing, added to the rest.");
-}
-
-template <class Visitor>
-void describe(Visitor& v, Scene::Initial& i) {
-    v.value("velocity_m_s", i.velocity_m_s, "of all the fluid, at the start");
-}
-
-template <class Visitor>
 void describe(Visitor& v, Scene::Solver& s) {
     v.value("preset", s.preset, "which solver");
     v.value("dt_s", s.dt_s, "time step", above(0, 1));
-    v.value("advection", s.advection, "in place of the preset's");
+    v.value("advection", s.advection, "in place of the preset's; not for yang2009");
     v.value("cycles", s.cycles, "multigrid cycles a step, in place of the preset's; not for yang2009",
             between(1, 20));
+    v.value("viscous_cycles", s.viscous_cycles,
+            "multigrid cycles a step for the viscous term, in place of the preset's; not for yang2009",
+            between(1, 20));
+    v.value("time_order", s.time_order,
+            "accuracy of the splitting in time: first or second order; yang2009 has 1", between(1, 2));
     v.value("jacobi_sweeps", s.jacobi_sweeps,
             "pressure sweeps a step, in place of the preset's; only for yang2009", between(1, 400));
+    v.value("force_sum", s.force_sum, "where the force is added up, in place of the GPU; only for yang2009");
 }
 
 template <class Visitor>
@@ -121,9 +52,23 @@ void describe(Visitor& v, Scene::Render& r) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, Scene::Probe& p) {
+    v.derived("name", p.name, "`probe1`, `probe2`, ...", "letters, digits, - and _; starts with a letter");
+    v.required("quantity", p.quantity, "what it measures");
+    v.value("point_m", p.point_m, "where");
+    v.value("from_m", p.from_m, "in place of point_m: the first of several points on a line ...");
+    v.value("to_m", p.to_m, "... the last one ...");
+    v.value("points", p.points, "... and how many they are, at equal distances", between(2, 1000));
+}
+
+template <class Visitor>
 void describe(Visitor& v, Scene::Outputs& o) {
     v.value("duration_s", o.duration_s, "how long to simulate", above(0, 1e6));
     v.value("series", o.series, "write series.csv: forces and sums at each step");
+    v.value(
+        "force_methods", o.force_methods,
+        "measure the forces in two more ways: by the balance of momentum, and by the impulse that the bodies "
+        "give to the fluid");
     v.value("fields", o.fields, "whole fields to write at the end, as .npy");
 }
 
@@ -133,13 +78,19 @@ void describe(Visitor& v, Scene& s) {
     v.value("description", s.description, "what one sees and feels");
     v.table("tank", s.tank, "The box of fluid.");
     v.table("fluid", s.fluid, "What is in the tank.");
+    v.table("temperature", s.temperature, "Effect: heat, carried by the flow.");
     v.table("smoke", s.smoke, "Effect: smoke, carried by the flow.");
-    v.list("source", s.sources, "A ball of the tank where smoke or a jet comes from.");
+    v.table("vorticity_confinement", s.vorticity_confinement,
+            "Effect: small vortices that the grid has blurred are fed (Steinhoff and Underhill 1994).");
+    v.list("source", s.sources, "A ball of the tank where smoke, heat or a jet comes from.");
     v.list("body", s.bodies, "A solid in the fluid.");
     v.table("initial", s.initial, "The flow at the start.");
+    v.table("forcing", s.forcing, "Effect: a force on all the fluid.");
+    v.table("imposed", s.imposed, "Effect: the flow is given, not computed; smoke and heat follow it.");
     v.table("solver", s.solver, "How the flow is computed.");
     v.table("haptics", s.haptics, "How the hand is coupled to the held body.");
     v.table("render", s.render, "The picture.");
+    v.list("probe", s.probes, "A quantity at a point, or along a line, as columns of series.csv.");
     v.table("outputs", s.outputs, "What a simulation writes.");
 }
 

@@ -27,6 +27,12 @@ std::string to_toml(const glm::ivec3& v) {
 std::string to_toml(const glm::dvec3& v) {
     return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
+std::string to_toml(const Formula& value) {
+    return value.source() ? in_quotes(*value.source()) : to_toml(*value.constant());
+}
+std::string to_toml(const FormulaVector& v) {
+    return fmt::format("[{}, {}, {}]", to_toml(v.x), to_toml(v.y), to_toml(v.z));
+}
 std::string to_toml(const std::string& value) {
     return in_quotes(value);
 }

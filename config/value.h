@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "config/diagnostic.h"
+#include "config/formula.h"
 
 // What a key of the schema can hold, how it is called in messages and how it is written in TOML.
 
@@ -95,6 +96,12 @@ constexpr std::string_view type_name(const glm::ivec3&) {
 constexpr std::string_view type_name(const glm::dvec3&) {
     return "a list of 3 numbers";
 }
+inline std::string_view type_name(const Formula&) {
+    return "a number or a formula";
+}
+inline std::string_view type_name(const FormulaVector&) {
+    return "a list of 3 numbers or formulas";
+}
 inline std::string_view type_name(const std::string&) {
     return "text";
 }
@@ -116,6 +123,8 @@ std::string to_toml(int value);
 std::string to_toml(double value);
 std::string to_toml(const glm::ivec3& value);
 std::string to_toml(const glm::dvec3& value);
+std::string to_toml(const Formula& value);
+std::string to_toml(const FormulaVector& value);
 std::string to_toml(const std::string& value);
 std::string to_toml(const std::filesystem::path& value);
 template <Worded Enum>

@@ -16,10 +16,14 @@ TEST(Reference, TellsTypeRangeDefaultAndMeaning) {
     EXPECT_THAT(text, HasSubstr("| `dt_s` | a number | above 0 and at most 1 | `0.02` | time step |\n"));
     EXPECT_THAT(text, HasSubstr("\n## `[[body]]`\n"));
     EXPECT_THAT(text, HasSubstr("\n## `[body.oscillation]`\n"));
-    EXPECT_THAT(
-        text,
-        HasSubstr(
-            "| `radius_m` | a number | above 0 and at most 1000 | must be given | radius of the sphere |"));
+    EXPECT_THAT(text, HasSubstr("| `radius_m` | a number | above 0 and at most 1000 | must be given for "
+                                "`sphere`, `capsule`, `cylinder`, `torus`, "
+                                "`disk` |"));
+    EXPECT_THAT(text, HasSubstr("| `x_low` | a word or a table |  | `\"slip\"` | left |\n"));
+    EXPECT_THAT(text, HasSubstr("\n## `[tank.walls.x_low]`\n"));
+    EXPECT_EQ(text.find("[tank.walls.x_high]"), std::string::npos);
+    EXPECT_THAT(text, HasSubstr("| `initial_k` | a number or a formula |  | `0` | "));
+    EXPECT_THAT(text, HasSubstr("\n## Formulas\n"));
     EXPECT_THAT(
         text, HasSubstr("`fast` cut cells, multigrid with 2 cycles, semi-Lagrangian transport; `precise` "));
 }
