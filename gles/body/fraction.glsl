@@ -22,20 +22,40 @@ float fluid_fraction(float distance, vec3 n) {
     float all = max(alpha - n.x - n.y - n.z, 0.0);
     float a = max(alpha, 0.0);
     float volume = (a * a * a - dot(one * one, one) + dot(two * two, two) - all * all * all) / (6.0 * n.x * n.y * n.z);
-    // Slivers that rounding alone could open or close count as closed.
-    return volume < kSliver ? 0.0 : min(volume, 1.0);
+    return volume;
 }
 
-// The fluid's share of the staggered cell around x [cells].
-float fluid_fraction_at(vec3 x) {
-    float distance = solid_distance(x);
+// The fluid's share of a cube of this edge around x [cells].
+float fluid_fraction_at(vec3 x, float edge) {
+    float distance = solid_distance(x) / edge;
     // Where the surface is farther than the cube's half diagonal, no gradient is needed (nor defined, at a centre).
     if (abs(distance) > 1.0) return distance > 0.0 ? 1.0 : 0.0;
-    const vec2 e = vec2(0.05, 0.0);
-    vec3 g = vec3(solid_distance(x + e.xyy) - solid_distance(x - e.xyy),
-                  solid_distance(x + e.yxy) - solid_distance(x - e.yxy),
-                  solid_distance(x + e.yyx) - solid_distance(x - e.yyx)) / (2.0 * e.x);
+    vec2 e = vec2(0.25 * edge, 0.0);
+    vec3 low = vec3(solid_distance(x - e.xyy), solid_distance(x - e.yxy), solid_distance(x - e.yyx)) / edge;
+    vec3 high = vec3(solid_distance(x + e.xyy), solid_distance(x + e.yxy), solid_distance(x + e.yyx)) / edge;
+    vec3 g = 2.0 * (high - low);
     float steepness = length(g);  // 1 for a true distance
     if (steepness < 1e-3) return distance > 0.0 ? 1.0 : 0.0;
+    // A curved surface seen as a plane lies too far out: on average over the cube, distance exceeds that to the plane by
+    // 1/24 of its Laplacian (the mean of a quadratic over a unit cube). Near an edge of the body the Laplacian only says so.
+    float laplacian = 16.0 * (dot(low, vec3(1.0)) + dot(high, vec3(1.0)) - 6.0 * distance);
+    distance += clamp(laplacian, -2.0, 2.0) / 24.0;
     return fluid_fraction(distance / steepness, g / steepness);
+}
+
+// The fluid's share of the staggered cell around x [cells], from SUBCUBES^3 parts.
+float fluid_fraction_at(vec3 x) {
+#if SUBCUBES == 1
+    float volume = fluid_fraction_at(x, 1.0);
+#else
+    const float edge = 1.0 / float(SUBCUBES);
+    float volume = 0.0;
+    for (int k = 0; k < SUBCUBES; ++k)
+        for (int j = 0; j < SUBCUBES; ++j)
+            for (int i = 0; i < SUBCUBES; ++i)
+                volume += fluid_fraction_at(x - 0.5 + (vec3(i, j, k) + 0.5) * edge, edge);
+    volume *= edge * edge * edge;
+#endif
+    // Slivers that rounding alone could open or close count as closed.
+    return volume < kSliver ? 0.0 : min(volume, 1.0);
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace eddy::gles {
 namespace {
 
@@ -11,14 +13,42 @@ Box faces_of(const Box& cells) {
     return {cells.lo, cells.hi + 1};
 }
 
+FaceFractions new_fractions(Gpu& gpu, const glm::ivec3& n) {
+    return {{gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}};
+}
+
+std::vector<Input> inputs(const FaceFractions& a) {
+    return {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}};
+}
+
+std::vector<const Texture*> outputs(const FaceFractions& a) {
+    return {&a.x.texture(), &a.y.texture(), &a.z.texture()};
+}
+
+bool has_edges(const BodySetup& body) {
+    return std::visit(
+        []<class S>(const S&) {
+            return !(std::is_same_v<S, Sphere> || std::is_same_v<S, Ellipsoid> ||
+                     std::is_same_v<S, Capsule> || std::is_same_v<S, Torus>);
+        },
+        body.shape);
+}
+
+/// Parts an axis that a staggered cell is cut into: surfaces with edges need more than one plane.
+int subcubes(const std::vector<BodySetup>& bodies) {
+    return std::any_of(bodies.begin(), bodies.end(), has_edges) ? 2 : 1;
+}
+
 }  // namespace
 
 Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::vector<BodySetup>& bodies)
     : grids_(grids),
+      volumes_(new_fractions(gpu, grids[0])),
       finest_(gpu, "fractions", "gles/body/fractions.frag", Faces4::layout(grids[0]),
-              {.declarations = shape_declarations(bodies)}) {
-    for (const glm::ivec3& n : grids)
-        levels_.push_back({{gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}});
+              {.defines = {{"SUBCUBES", fmt::format("{}", subcubes(bodies))}},
+               .declarations = shape_declarations(bodies)}),
+      sharpen_(gpu, "sharpen fractions", "gles/body/sharpen_fractions.frag", Faces4::layout(grids[0])) {
+    for (const glm::ivec3& n : grids) levels_.push_back(new_fractions(gpu, n));
     for (std::size_t l = 0; l + 1 < grids.size(); ++l)
         coarsen_.emplace_back(gpu, fmt::format("coarsen fractions {}", l + 1),
                               "gles/body/coarsen_fractions.frag", Faces4::layout(grids[l + 1]),
@@ -50,15 +80,10 @@ void Fractions::update(const BodyUniforms& bodies, const std::vector<Box>& boxes
 }
 
 void Fractions::draw(const BodyUniforms& bodies, const Region& finest, const std::vector<Region>& coarse) {
-    const FaceFractions& a = levels_[0];
-    finest_.draw({}, {bodies.centre(), bodies.size()}, {&a.x.texture(), &a.y.texture(), &a.z.texture()},
-                 finest);
-    for (std::size_t l = 0; l < coarsen_.size(); ++l) {
-        const FaceFractions& fine = levels_[l];
-        const FaceFractions& c = levels_[l + 1];
-        coarsen_[l].draw({{"ax", &fine.x.texture()}, {"ay", &fine.y.texture()}, {"az", &fine.z.texture()}},
-                         {}, {&c.x.texture(), &c.y.texture(), &c.z.texture()}, coarse[l]);
-    }
+    finest_.draw(bodies.inputs(), bodies.uniforms(), outputs(volumes_), finest);
+    sharpen_.draw(inputs(volumes_), {}, outputs(levels_[0]), finest);
+    for (std::size_t l = 0; l < coarsen_.size(); ++l)
+        coarsen_[l].draw(inputs(levels_[l]), {}, outputs(levels_[l + 1]), coarse[l]);
 }
 
 }  // namespace eddy::gles

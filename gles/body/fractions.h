@@ -27,8 +27,9 @@ class Fractions {
     void draw(const BodyUniforms& bodies, const Region& finest, const std::vector<Region>& coarse);
 
     std::vector<glm::ivec3> grids_;
+    FaceFractions volumes_;  ///< before they are sharpened
     std::vector<FaceFractions> levels_;
-    Pass finest_;
+    Pass finest_, sharpen_;
     std::vector<Pass> coarsen_;  ///< [l] makes level l + 1 from level l
     std::vector<Box> before_;
     bool drawn_ = false;

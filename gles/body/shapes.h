@@ -2,37 +2,42 @@
 #include <string>
 #include <vector>
 
+#include "gles/body/bounds.h"
 #include "gles/fluid/setup.h"
 #include "gles/pass.h"
 
 namespace eddy::gles {
 
-/// GLSL for the bodies of one scene: `float solid_distance(vec3 x)` (signed, negative inside, to the nearest
-/// body) and `vec3 solid_velocity(vec3 x)` (of the nearest body at x, as if it were rigidly extended). x in
-/// cells, result in cells and m/s. Only the shapes this scene has are in it.
+/// GLSL for the bodies of one scene; x in cells:
+///   float solid_distance(vec3 x)    to the nearest body's surface, negative inside [cells]
+///   int nearest_body(vec3 x)        its number
+///   vec3 solid_velocity(vec3 x)     of the nearest body at x, as if it were rigidly extended [m/s]
+/// Only the shapes this scene has are in it. The distance is exact, but for: an ellipsoid's, off by the order
+/// of the distance squared; the inside of a paddle, where it is at most the true one; a mesh's
+/// (distance_grid.h). None is more than the true one outside, so rays may step by it.
 std::string shape_declarations(const std::vector<BodySetup>& bodies);
 
-/// Values of the uniforms that these declarations use. Everything in cells and m/s.
+/// What these declarations read: the bodies' poses and motions, and the distances of meshes.
 class BodyUniforms {
   public:
-    BodyUniforms(const std::vector<BodySetup>& bodies, double cell_m);
+    BodyUniforms(Gpu& gpu, const std::vector<BodySetup>& bodies, double cell_m);
     void set(const std::vector<BodyState>& states);
-    Uniform centre() const { return {"body_centre", centre_}; }        ///< [cells]
-    Uniform size() const { return {"body_size", size_}; }              ///< shape parameters [cells]
-    Uniform velocity() const { return {"body_velocity", velocity_}; }  ///< [m/s]
-    Uniform spin() const {
-        return {"body_spin", spin_};
-    }  ///< angular velocity times cell width [m/s per cell]
+
+    /// All of them; a pass takes what it uses.
+    std::vector<Uniform> uniforms() const;
+    /// The textures; they and their names live as long as this.
+    const std::vector<Input>& inputs() const { return inputs_; }
 
   private:
     double cell_m_;
-    std::vector<glm::vec3> centre_, size_, velocity_, spin_;
+    std::vector<glm::vec3> centre_, size_;    ///< [cells]
+    std::vector<glm::vec3> velocity_, spin_;  ///< [m/s]; angular velocity times cell width [m/s per cell]
+    std::vector<glm::vec3> axes_;             ///< three for each body: its frame's axes in the tank
+    std::vector<glm::vec3> handle_;           ///< of paddles: radius, half length [cells]
+    std::vector<glm::dmat3> frames_;          ///< in the body: the frame in which its distance is written
+    std::vector<std::string> input_names_;
+    std::vector<TexturePool::Lease> distances_;
+    std::vector<Input> inputs_;
 };
-
-/// Radius of the sphere around the body's centre that holds it [m].
-double bounding_radius_m(const Shape& shape);
-/// The cells in which the body's presence can be noticed: its bounding box and two cells around it, inside
-/// the grid.
-Box body_box(const Shape& shape, const BodyState& state, double cell_m, const glm::ivec3& cells);
 
 }  // namespace eddy::gles

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "gles/body/fractions.h"
@@ -6,17 +7,26 @@
 
 namespace eddy::gles {
 
-/// Force and torque of the pressure on each body, summed on the GPU over the body's box only.
+/// Force and torque of the pressure, and of friction if the fluid is viscous, on each body, summed on the GPU over
+/// the body's box only.
 class Traction {
   public:
     /// `target_width`: width in texels of the row that takes the results.
-    Traction(Gpu& gpu, const glm::ivec3& cells, double cell_m, const std::vector<BodySetup>& bodies,
-             int target_width);
+    Traction(Gpu& gpu, const FluidSetup& setup, int target_width);
+
+    /// What friction is computed from: the velocity that the viscous step left, the faces' distances to the
+    /// bodies, and nu dt / h^2.
+    struct Friction {
+        const Field<Faces>& velocity;
+        const Field<Faces>& distances;
+        float lambda;
+    };
 
     /// Writes, for body i, sum(phi grad(1-a)) to texel 2i of `target` and its moment to texel 2i + 1: in m/s
     /// cells^2 and m/s cells^3. Times rho h^3/dt and rho h^4/dt they are newtons and newton metres.
     void draw(const Field<Cells4>& phi, const FaceFractions& a, const BodyUniforms& uniforms,
-              const std::vector<BodyState>& states, const std::vector<Box>& boxes, const Texture& target);
+              const std::vector<BodyState>& states, const std::vector<Box>& boxes, const Texture& target,
+              const std::optional<Friction>& friction);
 
   private:
     struct Body {

@@ -1,0 +1,29 @@
+#pragma once
+#include <array>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "gles/atlas.h"
+#include "gles/fluid/setup.h"
+
+namespace eddy::gles {
+
+/// Radius of the ball around the body's centre that holds it [m].
+double bounding_radius_m(const Shape& shape);
+
+/// The smallest box along the tank's axes that holds a shape, from the body's centre [m].
+struct Extent {
+    glm::dvec3 low, high;
+};
+Extent extent(const Shape& shape, const glm::dquat& orientation);
+
+/// The cells in which the body's presence can be noticed: its extent and two cells around it, inside the
+/// grid; for a body turned inside out, the whole grid.
+Box body_box(const BodySetup& body, const BodyState& state, double cell_m, const glm::ivec3& cells);
+/// The most cells that box can have each way, whatever the state.
+glm::ivec3 largest_body_box(const BodySetup& body, double cell_m, const glm::ivec3& cells);
+
+/// In the body's frame [m].
+std::array<glm::dvec3, 4> corners_m(const Tetrahedron& tetrahedron);
+
+}  // namespace eddy::gles
