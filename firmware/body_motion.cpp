@@ -19,6 +19,11 @@ std::unique_ptr<emulated::RecordedMotion> read_path(const std::filesystem::path&
     }
 }
 
+double swing(const Scene::Body& body, double t) {
+    return std::sin(2.0 * std::numbers::pi * body.oscillation->frequency_hz * t +
+                    body.oscillation->phase_rad);
+}
+
 }  // namespace
 
 BodyMotions::BodyMotions(const Scene& scene) : bodies_(scene.bodies) {
@@ -34,13 +39,21 @@ glm::dvec3 BodyMotions::position_m(std::size_t i, double time_s) const {
     if (body.motion != BodyMotion::Prescribed) return body.centre_m;
     const double t = std::max(0.0, time_s - body.start_s);
     glm::dvec3 x = body.centre_m + body.velocity_m_s * t + 0.5 * t * t * body.acceleration_m_s2;
-    if (body.oscillation) {
-        const double phase =
-            2.0 * std::numbers::pi * body.oscillation->frequency_hz * t + body.oscillation->phase_rad;
-        x += body.oscillation->amplitude_m * std::sin(phase);
-    }
+    if (body.oscillation) x += body.oscillation->amplitude_m * swing(body, t);
     if (paths_[i]) x += paths_[i]->position_m(Seconds(t));
     return x;
+}
+
+glm::dquat BodyMotions::orientation(std::size_t i, double time_s) const {
+    const Scene::Body& body = bodies_[i];
+    const double t = std::max(0.0, time_s - body.start_s), spin = glm::length(body.spin_rad_s);
+    glm::dquat turn(1.0, 0.0, 0.0, 0.0);
+    if (body.motion == BodyMotion::Prescribed && spin > 0.0)
+        turn = glm::angleAxis(spin * t, body.spin_rad_s / spin);
+    else if (body.motion == BodyMotion::Prescribed && body.oscillation)
+        turn = glm::angleAxis(glm::radians(body.oscillation->angle_deg) * swing(body, t),
+                              glm::normalize(body.oscillation->axis));
+    return turn * body.orientation();
 }
 
 std::vector<gles::BodyState> BodyMotions::at(double time_s, double dt_s) const {
@@ -48,11 +61,13 @@ std::vector<gles::BodyState> BodyMotions::at(double time_s, double dt_s) const {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         states[i].centre_m = position_m(i, time_s);
         states[i].velocity_m_s = (states[i].centre_m - position_m(i, time_s - dt_s)) / dt_s;
-        if (bodies_[i].motion != BodyMotion::Prescribed || time_s <= bodies_[i].start_s) continue;
-        states[i].spin_rad_s = bodies_[i].spin_rad_s;
-        const double angle = glm::length(bodies_[i].spin_rad_s) * (time_s - bodies_[i].start_s);
-        if (angle != 0.0)
-            states[i].orientation = glm::angleAxis(angle, glm::normalize(bodies_[i].spin_rad_s));
+        states[i].orientation = orientation(i, time_s);
+        const glm::dquat turned = states[i].orientation * glm::conjugate(orientation(i, time_s - dt_s));
+        // Of the two rotations that lead there, the one by less than half a turn.
+        const glm::dquat shorter = turned.w < 0.0 ? -turned : turned;
+        if (const double sine = glm::length(glm::dvec3(shorter.x, shorter.y, shorter.z)); sine > 0.0)
+            states[i].spin_rad_s =
+                2.0 * std::atan2(sine, shorter.w) / dt_s * glm::dvec3(shorter.x, shorter.y, shorter.z) / sine;
     }
     return states;
 }

@@ -25,6 +25,7 @@ class BodyMotions {
 
   private:
     glm::dvec3 position_m(std::size_t body, double time_s) const;
+    glm::dquat orientation(std::size_t body, double time_s) const;
 
     std::vector<Scene::Body> bodies_;
     std::vector<std::unique_ptr<emulated::RecordedMotion>> paths_;

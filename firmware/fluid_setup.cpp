@@ -1,17 +1,26 @@
 #include "firmware/fluid_setup.h"
 
+#include "firmware/input_error.h"
+#include "gles/body/distance_grid.h"
+#include "gles/body/mesh_file.h"
+
 namespace eddy {
 namespace {
+
+/// Nodes of a mesh's distance grid along its longest side.
+constexpr int kMeshNodes = 64;
 
 gles::SolverSetup solver_setup(const Scene::Solver& solver) {
     gles::SolverSetup s;
     switch (solver.preset) {
         case SolverPreset::Fast:
             s.cycles = 2;
+            s.viscous_cycles = 1;
             break;
         case SolverPreset::Precise:
             s.advection = gles::Advection::MacCormack;
             s.cycles = 3;
+            s.viscous_cycles = 2;
             break;
         case SolverPreset::Yang2009:
             s.method = gles::Method::Yang2009;
@@ -21,8 +30,70 @@ gles::SolverSetup solver_setup(const Scene::Solver& solver) {
         s.advection = *solver.advection == AdvectionScheme::MacCormack ? gles::Advection::MacCormack
                                                                        : gles::Advection::SemiLagrangian;
     if (solver.cycles) s.cycles = *solver.cycles;
+    if (solver.viscous_cycles) s.viscous_cycles = *solver.viscous_cycles;
     if (solver.jacobi_sweeps) s.jacobi_sweeps = *solver.jacobi_sweeps;
+    if (solver.force_sum)
+        s.force_sum = *solver.force_sum == ForceSum::Cpu ? gles::ForceSum::Cpu : gles::ForceSum::Gpu;
     return s;
+}
+
+gles::WallSetup wall_setup(const Scene::Wall& wall, std::string& all_glsl) {
+    gles::WallSetup w;
+    switch (wall.kind) {
+        case WallKind::Slip:
+            w.kind = gles::WallKind::Slip;
+            break;
+        case WallKind::NoSlip:
+            w.kind = gles::WallKind::NoSlip;
+            break;
+        case WallKind::Inflow:
+            w.kind = gles::WallKind::Inflow;
+            break;
+        case WallKind::Open:
+            w.kind = gles::WallKind::Open;
+            break;
+    }
+    if (wall.velocity_m_s) {
+        const FormulaVector& v = *wall.velocity_m_s;
+        w.velocity_m_s.glsl = {v.x.glsl(), v.y.glsl(), v.z.glsl()};
+        all_glsl += v.glsl();
+    }
+    return w;
+}
+
+gles::Mesh mesh(const Scene::Body& body, double cell_m) {
+    try {
+        return {std::make_shared<gles::DistanceGrid>(gles::read_mesh(body.file.string(), body.scale),
+                                                     kMeshNodes, 2.0 * cell_m)};
+    } catch (const gles::MeshError& e) {
+        throw InputError(e.what());
+    }
+}
+
+gles::Shape shape(const Scene::Body& b, double cell_m) {
+    switch (b.shape) {
+        case BodyShape::Sphere:
+            return gles::Sphere{b.radius_m};
+        case BodyShape::Box:
+            return gles::Cuboid{b.size_m};
+        case BodyShape::Capsule:
+            return gles::Capsule{b.radius_m, b.length_m};
+        case BodyShape::Cylinder:
+            return gles::Cylinder{b.radius_m, b.length_m};
+        case BodyShape::Torus:
+            return gles::Torus{b.radius_m, b.tube_radius_m};
+        case BodyShape::Ellipsoid:
+            return gles::Ellipsoid{b.radii_m};
+        case BodyShape::Disk:
+            return gles::Cylinder{b.radius_m, b.thickness_m};
+        case BodyShape::Paddle:
+            return gles::Paddle{b.blade_m, b.handle_radius_m, b.handle_length_m};
+        case BodyShape::Tetrahedron:
+            return gles::Tetrahedron{b.edge_m};
+        case BodyShape::Mesh:
+            return mesh(b, cell_m);
+    }
+    throw std::logic_error("a body shape without a solid");
 }
 
 }  // namespace
@@ -32,7 +103,17 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
     s.cells = scene.tank.cells;
     s.cell_m = scene.tank.cell_m();
     s.density_kg_m3 = scene.fluid.density_kg_m3;
-    s.velocity_m_s = scene.initial.velocity_m_s;
+    s.viscosity_pa_s = scene.fluid.viscosity_pa_s;
+    s.gravity_m_s2 = scene.fluid.gravity_m_s2;
+    const Scene::Walls& w = scene.tank.walls;
+    std::string all_glsl;
+    s.walls = {wall_setup(w.x_low, all_glsl), wall_setup(w.x_high, all_glsl),
+               wall_setup(w.y_low, all_glsl), wall_setup(w.y_high, all_glsl),
+               wall_setup(w.z_low, all_glsl), wall_setup(w.z_high, all_glsl)};
+    s.formula_helpers = formula_helpers(all_glsl);
+    s.velocity_at_start = [u = scene.initial.velocity_m_s](const glm::dvec3& x_m) {
+        return u.evaluate(x_m, 0.0);
+    };
     if (scene.smoke) s.smoke = gles::SmokeSetup{scene.smoke->dissipation_1_s};
     for (const Scene::Source& source : scene.sources) {
         gles::SourceSetup& to = s.sources.emplace_back();
@@ -44,7 +125,7 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
         if (source.stop_s) to.stop_s = *source.stop_s;
     }
     for (const Scene::Body& body : scene.bodies)
-        s.bodies.push_back({gles::Sphere{body.radius_m}, body.force, body.torque});
+        s.bodies.push_back({shape(body, s.cell_m), body.inside_out, body.force, body.torque});
     s.solver = solver_setup(scene.solver);
     return s;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "firmware/fluid_setup.h"
+#include "gles/body/bounds.h"
 
 namespace eddy {
 namespace {
@@ -12,21 +13,21 @@ constexpr double kWallGapCells = 1.5;
 /// The fluid's period is smoothed over about this many updates.
 constexpr double kPeriodMemory = 8.0;
 
-const Scene::Body* held_body(const Scene& scene) {
-    for (const Scene::Body& body : scene.bodies)
-        if (body.motion == BodyMotion::Held) return &body;
-    return nullptr;
+/// Radius of the ball that holds the held body; 0 if none is.
+double held_radius_m(const Scene& scene, const gles::FluidSetup& fluid) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        if (scene.bodies[i].motion == BodyMotion::Held) return gles::bounding_radius_m(fluid.bodies[i].shape);
+    return 0.0;
 }
 
 }  // namespace
 
-HapticOrders orders_for(const Scene& scene) {
+HapticOrders orders_for(const Scene& scene, const gles::FluidSetup& fluid) {
     HapticOrders orders;
     orders.enabled = true;
     orders.gain = scene.haptics.gain;
     orders.tank_from_device = {scene.haptics.centre_m, scene.haptics.workspace_scale};
-    const Scene::Body* body = held_body(scene);
-    const double margin = (body ? body->radius_m : 0.0) + kWallGapCells * scene.tank.cell_m();
+    const double margin = held_radius_m(scene, fluid) + kWallGapCells * scene.tank.cell_m();
     const glm::dvec3 middle = 0.5 * scene.tank.size_m;
     orders.lowest_m = glm::min(glm::dvec3(margin), middle);
     orders.highest_m = glm::max(scene.tank.size_m - margin, middle);

@@ -55,6 +55,6 @@ class Show {
 
 /// What the haptic loop is told for this scene: where the hand's workspace lies, how far the body may go, the
 /// gain.
-HapticOrders orders_for(const Scene& scene);
+HapticOrders orders_for(const Scene& scene, const gles::FluidSetup& fluid);
 
 }  // namespace eddy

@@ -7,21 +7,9 @@
 #include "firmware/verbs/verbs.h"
 
 namespace eddy {
-namespace {
-
-/// A scene file has tables that an exhibit's settings never have.
-bool looks_like_a_scene(const std::string& file) {
-    const std::string text = read_file(file);
-    for (const std::string_view table :
-         {"[tank]", "[[body]]", "[[source]]", "[fluid]", "[solver]", "[smoke]"})
-        if (text.find(table) != std::string::npos) return true;
-    return false;
-}
-
-}  // namespace
 
 int check_config(const std::string& file) {
-    if (looks_like_a_scene(file)) {
+    if (holds_a_scene(file)) {
         BodyMotions{load_scene(is_scene_file(file) ? file : "./" + file).scene};
         fmt::print("{}: a good scene\n", file);
     } else {

@@ -123,7 +123,7 @@ class Run {
         HapticLoopSettings settings;
         settings.gate.max_force_n = std::min(scene.haptics.max_force_n, exhibit.max_force_n);
         if (device_) loop_.emplace(*device_, exchange_, trace_, settings);
-        orders_ = orders_for(scene);
+        orders_ = orders_for(scene, show_.fluid().setup());
         exchange_.orders.publish(orders_);
         // status.json goes where it is asked for; by default to the run folder of the service, if there is
         // one.

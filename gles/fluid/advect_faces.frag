@@ -4,6 +4,7 @@
 // writes  u*         RGBA32F  Faces                      [m/s]
 // fetches 17
 #include "velocity.glsl"
+#include "beyond.glsl"
 
 uniform sampler2D velocity;
 uniform float dt_h;  // dt / h  [s/m]
@@ -14,6 +15,7 @@ void main() {
     ivec3 c = cell_here(FACES);
     FaceVelocities v = velocity_on_faces(velocity, c, at(velocity, FACES, c).xyz);
     vec3 s = vec3(c) + 0.5;
-    result = vec4(sample_linear(velocity, FACES, s - dt_h * v.x).x, sample_linear(velocity, FACES, s - dt_h * v.y).y,
-                  sample_linear(velocity, FACES, s - dt_h * v.z).z, 0.0);
+    vec3 x = s - dt_h * v.x, y = s - dt_h * v.y, z = s - dt_h * v.z;
+    result = vec4(to_walls(sample_linear(velocity, FACES, x).x, 0, x), to_walls(sample_linear(velocity, FACES, y).y, 1, y),
+                  to_walls(sample_linear(velocity, FACES, z).z, 2, z), 0.0);
 }

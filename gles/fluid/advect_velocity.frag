@@ -7,6 +7,7 @@
 // One displacement, that of the cell centre, moves the three lower faces of a cell: in texel coordinates they coincide,
 // so one trilinear fetch brings all three.
 #include "velocity.glsl"
+#include "beyond.glsl"
 
 uniform sampler2D velocity;
 uniform float dt_h;  // dt / h  [s/m]
@@ -16,5 +17,6 @@ out vec4 result;
 void main() {
     ivec3 c = cell_here(FACES);
     vec3 s = vec3(c) + 0.5 - dt_h * velocity_in_cell(velocity, c);
-    result = sample_linear(velocity, FACES, s);
+    vec3 u = sample_linear(velocity, FACES, s).xyz;
+    result = vec4(to_walls(u.x, 0, s), to_walls(u.y, 1, s), to_walls(u.z, 2, s), 0.0);
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "gles/body/mass_properties.h"
 #include "gles/grid_io.h"
 
 namespace eddy::gles {
@@ -13,20 +14,6 @@ namespace {
 /// impulse, and comes out right (2 cycles alone: 2 % low; 5: within 0.02 % of the converged one).
 constexpr int kColdCycles = 3;
 
-/// What the passes between faces and cells are compiled with.
-Variant grid_variant(const FluidSetup& setup, bool cut, bool walls = false) {
-    Variant v{.layouts = {{"FACES", Faces::layout(setup.cells)},
-                          {"PHI", Cells4::layout(setup.cells)},
-                          {"FRACTION", Faces4::layout(setup.cells)}},
-              .defines = {{"CELLS", glsl(setup.cells)}}};
-    if (cut) {
-        v.defines.emplace_back("CUT", "");
-        v.declarations = shape_declarations(setup.bodies);
-    }
-    if (walls) v.defines.emplace_back("WALLS", "");
-    return v;
-}
-
 /// The three layers of face texels at the upper walls.
 Region upper_walls(const glm::ivec3& n) {
     return Region(
@@ -35,45 +22,97 @@ Region upper_walls(const glm::ivec3& n) {
 
 }  // namespace
 
+Variant CutCellFluid::grid_variant(bool cut) const {
+    Variant v{.layouts = {{"FACES", Faces::layout(setup_.cells)},
+                          {"PHI", Cells4::layout(setup_.cells)},
+                          {"FRACTION", Faces4::layout(setup_.cells)}},
+              .defines = {{"CELLS", glsl(setup_.cells)}}};
+    walls_.declare(v);
+    if (cut) {
+        v.defines.emplace_back("CUT", "");
+        v.declarations += shape_declarations(setup_.bodies);
+    }
+    return v;
+}
+
+CutCellFluid::Projection CutCellFluid::make_projection(bool predicts) {
+    const std::string name = predicts ? "predict" : "project";
+    const auto make = [&](const char* suffix, bool cut, bool walls) {
+        Variant variant = grid_variant(cut);
+        if (walls) variant.defines.emplace_back("WALLS", "");
+        if (predicts) variant.defines.emplace_back("PREDICT", "");
+        return Pass(gpu_, name + suffix, "gles/fluid/project.frag", Faces::layout(setup_.cells), variant);
+    };
+    const bool solids = fractions_.has_value();
+    return {make("", false, false), solids ? std::optional<Pass>(make(" cut", true, false)) : std::nullopt,
+            make(" at walls", solids, true)};
+}
+
 CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
     : Fluid(std::move(setup)),
       gpu_(gpu),
       u_(gpu, setup_.cells, Format::RGBA32F),
       phi_(gpu, setup_.cells, Format::RGBA32F),
-      advect_(gpu, setup_.cells, setup_.cell_m, setup_.solver.advection),
+      walls_(setup_),
+      advect_(gpu, setup_, walls_),
       fractions_(
           setup_.bodies.empty()
               ? std::optional<Fractions>()
               : std::optional<Fractions>(std::in_place, gpu, multigrid_levels(setup_.cells), setup_.bodies)),
-      body_uniforms_(setup_.bodies, setup_.cell_m),
+      body_uniforms_(gpu, setup_.bodies, setup_.cell_m),
       divergence_(gpu, "divergence", "gles/fluid/divergence.frag", Cells4::layout(setup_.cells),
-                  grid_variant(setup_, false)),
-      pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr),
-      project_(gpu, "project", "gles/fluid/project.frag", Faces::layout(setup_.cells),
-               grid_variant(setup_, false)),
-      project_walls_(gpu, "project at walls", "gles/fluid/project.frag", Faces::layout(setup_.cells),
-                     grid_variant(setup_, fractions_.has_value(), true)),
+                  grid_variant(false)),
+      pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr, walls_),
+      project_(make_projection(false)),
       results_(gpu, setup_) {
-    if (fractions_) {
+    if (fractions_)
         divergence_cut_.emplace(gpu, "divergence cut", "gles/fluid/divergence.frag",
-                                Cells4::layout(setup_.cells), grid_variant(setup_, true));
-        project_cut_.emplace(gpu, "project cut", "gles/fluid/project.frag", Faces::layout(setup_.cells),
-                             grid_variant(setup_, true));
+                                Cells4::layout(setup_.cells), grid_variant(true));
+    if (is_viscous()) {
+        viscosity_.emplace(gpu, setup_, walls_);
+        predict_.emplace(make_projection(true));
+        add_pressure_.emplace(gpu, "add pressure", "gles/fluid/add_pressure.frag",
+                              Cells4::layout(setup_.cells));
     }
-    if (Results::measures(setup_))
-        traction_.emplace(gpu, setup_.cells, setup_.cell_m, setup_.bodies, Results::width(setup_));
+    for (const BodySetup& body : setup_.bodies)
+        volumes_m3_.push_back((body.inside_out ? -1.0 : 1.0) * mass_properties(body.shape).volume_m3);
+    if (Results::measures(setup_)) traction_.emplace(gpu, setup_, Results::width(setup_));
     if (setup_.smoke) advect_smoke_.emplace(gpu, setup_);
     for (const SourceSetup& source : setup_.sources)
         if (source.velocity_m_s && !drive_)
             drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", Faces::layout(setup_.cells),
                            Variant{});
+    if (setup_.gravity_m_s2 != glm::dvec3(0.0))
+        body_forces_.emplace(gpu, "body forces", "gles/fluid/body_forces.frag", Faces::layout(setup_.cells));
     reset();
+}
+
+float CutCellFluid::lambda() const {
+    return static_cast<float>(setup_.viscosity_pa_s / setup_.density_kg_m3 * dt_s_ /
+                              (setup_.cell_m * setup_.cell_m));
+}
+
+std::vector<glm::vec3> CutCellFluid::velocity_at_start() const {
+    const glm::ivec3 n = setup_.cells;
+    std::vector<glm::vec3> u(static_cast<std::size_t>((n.x + 1) * (n.y + 1) * (n.z + 1)), glm::vec3(0.0f));
+    if (!setup_.velocity_at_start) return u;
+    std::size_t i = 0;
+    for (int z = 0; z <= n.z; ++z)
+        for (int y = 0; y <= n.y; ++y)
+            for (int x = 0; x <= n.x; ++x, ++i) {
+                const glm::dvec3 corner(x, y, z);
+                const auto on_face = [&](const glm::dvec3& face) {
+                    return setup_.velocity_at_start(setup_.cell_m * (corner + face));
+                };
+                u[i] = glm::vec3(on_face({0.0, 0.5, 0.5}).x, on_face({0.5, 0.0, 0.5}).y,
+                                 on_face({0.5, 0.5, 0.0}).z);
+            }
+    return u;
 }
 
 void CutCellFluid::reset() {
     const glm::ivec3 n = setup_.cells;
-    const auto faces = static_cast<std::size_t>((n.x + 1) * (n.y + 1) * (n.z + 1));
-    set_velocity(std::vector<glm::vec3>(faces, glm::vec3(setup_.velocity_m_s)));
+    set_velocity(velocity_at_start());
     clear(phi_.texture());
     if (setup_.smoke) {
         smoke_ = Field<Cells>(gpu_, n, Format::R32F);
@@ -81,6 +120,7 @@ void CutCellFluid::reset() {
     }
     results_.forget();
     before_.clear();
+    dt_s_ = 0.0;
     step_ = 0;
     time_s_ = 0.0;
 }
@@ -91,17 +131,23 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     body_uniforms_.set(bodies);
     boxes_.clear();
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        boxes_.push_back(body_box(setup_.bodies[i].shape, bodies[i], setup_.cell_m, setup_.cells));
-
-    std::vector<Box> rough = boxes_;
+        boxes_.push_back(body_box(setup_.bodies[i], bodies[i], setup_.cell_m, setup_.cells));
+    Pressure::Work work{.cycles = setup_.solver.cycles + (step_ == 0 ? kColdCycles : 0),
+                        .guess_scale = guess_scale,
+                        .cut = boxes_,
+                        .rough = boxes_};
     for (const SourceSetup& source : setup_.sources)
         if (source.velocity_m_s && is_running(source, time_s_))
-            rough.push_back(ball_box(ball_cells(source, setup_.cell_m), setup_.cells));
+            work.rough.push_back(ball_box(ball_cells(source, setup_.cell_m), setup_.cells));
 
     Field<Faces> u;
     {
         Gpu::Stage stage(gpu_, "advect velocity");
-        u = drive_sources(advect_(u_, dt_s));  // u* = u(x - dt u)
+        u = drive_sources(advect_(u_, dt_s, walls_.time(time_s_)));  // u* = u(x - dt u)
+    }
+    if (body_forces_) {
+        Gpu::Stage stage(gpu_, "body forces");
+        u = add_body_forces(std::move(u));  // u* += dt g
     }
     if (smoke_) {
         Gpu::Stage stage(gpu_, "advect smoke");
@@ -110,33 +156,39 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     if (fractions_) {
         Gpu::Stage stage(gpu_, "voxelise");
         fractions_->update(body_uniforms_, boxes_);  // a, where the bodies are now
+        if (viscosity_) viscosity_->place(body_uniforms_, boxes_);
     }
-    Field<Cells4> b;
-    {
-        Gpu::Stage stage(gpu_, "divergence");
-        b = divergence(u);  // b = div (a u* + (1 - a) u_solid)
-    }
+    time_s_ += dt_s;
     {
         Gpu::Stage stage(gpu_, "pressure");
         phi_ = pressure_.follow(std::move(phi_), motions(bodies));
-        phi_ = pressure_.solve(std::move(phi_), b,
-                               {.cycles = setup_.solver.cycles + (step_ == 0 ? kColdCycles : 0),
-                                .guess_scale = guess_scale,
-                                .cut = boxes_,
-                                .rough = rough});  // div (a grad phi) = b
+    }
+    if (viscosity_) {
+        Gpu::Stage stage(gpu_, "viscosity");
+        diffused_ = diffuse(u, work);  // u** - nu dt lap u** = u* - grad phi
+    }
+    const Field<Faces>& u_star = viscosity_ ? diffused_ : u;
+    Field<Cells4> b;
+    {
+        Gpu::Stage stage(gpu_, "divergence");
+        b = divergence(u_star);  // b = div (a u* + (1 - a) u_solid)
+    }
+    {
+        Gpu::Stage stage(gpu_, "pressure");
+        phi_ = solve_pressure(b, work);  // div (a grad phi) = b
     }
     {
         Gpu::Stage stage(gpu_, "project");
-        u_ = std::move(u);
-        u_ = subtract_gradient(u_);  // u = u* - grad phi
+        u_ = project(project_, u_star, viscosity_ ? increment_ : phi_, 1.0f);  // u = u* - grad phi
     }
     before_ = bodies;
     ++step_;
-    time_s_ += dt_s;
     if (traction_) {
         Gpu::Stage stage(gpu_, "force");
-        traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_,
-                        results_.row());  // F = int p grad(1 - a)
+        std::optional<Traction::Friction> friction;
+        if (viscosity_) friction.emplace(Traction::Friction{diffused_, viscosity_->distances(), lambda()});
+        traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_, results_.row(),
+                        friction);  // F = int p grad(1 - a) + mu du/dn
     }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
@@ -144,8 +196,39 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     }
     if (traction_ || wants_diagnosis) {
         Gpu::Stage stage(gpu_, "read back");
-        results_.request(step_, dt_s, wants_diagnosis);
+        results_.request(step_, dt_s, wants_diagnosis, turning_torque(bodies));
     }
+}
+
+Field<Faces> CutCellFluid::add_body_forces(Field<Faces> u) {
+    Field<Faces> next(gpu_, setup_.cells, Format::RGBA32F);
+    body_forces_->draw({{"velocity", &u.texture()}}, {{"dt_g", glm::vec3(dt_s_ * setup_.gravity_m_s2)}},
+                       {&next.texture()});
+    return next;
+}
+
+Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, const Pressure::Work& work) {
+    float scale = work.guess_scale;
+    if (step_ == 0) {
+        // No pressure yet: without one the viscous step would take a fluid held by gravity for one that falls.
+        phi_ = pressure_.solve(divergence(u), work);
+        scale = 1.0f;
+    }
+    const Field<Faces> predicted = project(*predict_, u, phi_, scale);
+    // The last step's result is a better guess than this step's right-hand side: at rest in a steady flow it is the
+    // solution, whatever the cycles leave.
+    return viscosity_->diffuse(step_ == 0 ? predicted : diffused_, predicted, dt_s_,
+                               setup_.solver.viscous_cycles, body_uniforms_, walls_.time(time_s_));
+}
+
+Field<Cells4> CutCellFluid::solve_pressure(const Field<Cells4>& b, const Pressure::Work& work) {
+    if (!viscosity_) return pressure_.solve(std::move(phi_), b, work);
+    increment_ = pressure_.solve(b, work);
+    Field<Cells4> phi(gpu_, setup_.cells, Format::RGBA32F);
+    add_pressure_->draw({{"phi", &phi_.texture()}, {"increment", &increment_.texture()}, {"b", &b.texture()}},
+                        {{"scale", step_ == 0 ? 1.0f : work.guess_scale}, {"lambda", lambda()}},
+                        {&phi.texture()});
+    return phi;
 }
 
 std::vector<BodyMotion> CutCellFluid::motions(const std::vector<BodyState>& bodies) const {
@@ -167,41 +250,55 @@ Field<Faces> CutCellFluid::drive_sources(Field<Faces> u) {
     return u;
 }
 
+void CutCellFluid::add_solids(std::vector<Input>& inputs, std::vector<Uniform>& uniforms) const {
+    const FaceFractions& a = fractions_->level(0);
+    inputs.insert(inputs.end(), {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
+    if (viscosity_) inputs.push_back({"distances", &viscosity_->distances().texture()});
+    inputs.insert(inputs.end(), body_uniforms_.inputs().begin(), body_uniforms_.inputs().end());
+    const std::vector<Uniform> of_bodies = body_uniforms_.uniforms();
+    uniforms.insert(uniforms.end(), of_bodies.begin(), of_bodies.end());
+}
+
 Field<Cells4> CutCellFluid::divergence(const Field<Faces>& u) {
     Field<Cells4> b(gpu_, setup_.cells, Format::RGBA32F);
-    divergence_.draw({{"velocity", &u.texture()}}, {}, {&b.texture()});
+    std::vector<Input> inputs{{"velocity", &u.texture()}};
+    std::vector<Uniform> uniforms{walls_.time(time_s_)};
+    divergence_.draw(inputs, uniforms, {&b.texture()});
     if (fractions_) {
-        const FaceFractions& a = fractions_->level(0);
-        divergence_cut_->draw({{"velocity", &u.texture()},
-                               {"ax", &a.x.texture()},
-                               {"ay", &a.y.texture()},
-                               {"az", &a.z.texture()}},
-                              {body_uniforms_.centre(), body_uniforms_.size(), body_uniforms_.velocity(),
-                               body_uniforms_.spin()},
-                              {&b.texture()}, Region::packed(boxes_));
+        add_solids(inputs, uniforms);
+        divergence_cut_->draw(inputs, uniforms, {&b.texture()}, Region::packed(boxes_));
     }
     return b;
 }
 
-Field<Faces> CutCellFluid::subtract_gradient(const Field<Faces>& u) {
+Field<Faces> CutCellFluid::project(Projection& projection, const Field<Faces>& u, const Field<Cells4>& phi,
+                                   float scale) {
     Field<Faces> next(gpu_, setup_.cells, Format::RGBA32F);
-    std::vector<Input> inputs{{"velocity", &u.texture()}, {"phi", &phi_.texture()}};
-    std::vector<Uniform> uniforms;
-    project_.draw(inputs, {}, {&next.texture()});
+    std::vector<Input> inputs{{"velocity", &u.texture()}, {"phi", &phi.texture()}};
+    std::vector<Uniform> uniforms{{"scale", scale}, walls_.time(time_s_)};
+    projection.plain.draw(inputs, uniforms, {&next.texture()});
     if (fractions_) {
-        const FaceFractions& a = fractions_->level(0);
-        inputs.insert(inputs.end(), {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
-        uniforms = {body_uniforms_.centre(), body_uniforms_.size(), body_uniforms_.velocity(),
-                    body_uniforms_.spin()};
-        project_cut_->draw(inputs, uniforms, {&next.texture()}, Region(boxes_));
+        add_solids(inputs, uniforms);
+        projection.cut->draw(inputs, uniforms, {&next.texture()}, Region(boxes_));
     }
-    project_walls_.draw(inputs, uniforms, {&next.texture()}, upper_walls(setup_.cells));
+    projection.walls.draw(inputs, uniforms, {&next.texture()}, upper_walls(setup_.cells));
     return next;
+}
+
+std::vector<glm::dvec3> CutCellFluid::turning_torque(const std::vector<BodyState>& bodies) const {
+    // The links carry mu du/dn; the traction is mu (du/dn + (grad u)^T n). Where the fluid sticks to a body that moves
+    // as u = U + w x r, the second part is n x w, because div u = 0 leaves no other: no force, and the torque
+    // mu int r x (n x w) dA = -2 mu V w about any point.
+    std::vector<glm::dvec3> torque;
+    if (!is_viscous()) return torque;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        torque.push_back(-2.0 * setup_.viscosity_pa_s * volumes_m3_[i] * bodies[i].spin_rad_s);
+    return torque;
 }
 
 void CutCellFluid::diagnose(const Field<Cells4>& before) {
     if (!diagnose_) {
-        Variant variant = grid_variant(setup_, false);
+        Variant variant = grid_variant(false);
         if (smoke_) {
             variant.layouts.emplace_back("SMOKE_CELLS", Cells::layout(setup_.cells));
             variant.defines.emplace_back("SMOKE", "");

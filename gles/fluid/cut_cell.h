@@ -5,8 +5,10 @@
 #include "gles/body/traction.h"
 #include "gles/fluid/fluid.h"
 #include "gles/fluid/pressure.h"
-#include "gles/fluid/transport.h"
 #include "gles/fluid/results.h"
+#include "gles/fluid/transport.h"
+#include "gles/fluid/viscous_term.h"
+#include "gles/fluid/walls.h"
 
 namespace eddy::gles {
 
@@ -26,17 +28,42 @@ class CutCellFluid final : public Fluid {
     void set_velocity(const std::vector<glm::vec3>& u) override;
 
   private:
+    /// The three passes of a projection: the whole grid, the boxes of solids over it, the upper walls.
+    struct Projection {
+        Pass plain;
+        std::optional<Pass> cut;
+        Pass walls;
+    };
+    Projection make_projection(bool predicts);
+    /// What the passes between faces and cells are compiled with.
+    Variant grid_variant(bool cut) const;
+
+    std::vector<glm::vec3> velocity_at_start() const;
     std::vector<BodyMotion> motions(const std::vector<BodyState>& bodies) const;
     Field<Faces> drive_sources(Field<Faces> u);
+    Field<Faces> add_body_forces(Field<Faces> u);
+    /// What passes near solids read besides their own.
+    void add_solids(std::vector<Input>& inputs, std::vector<Uniform>& uniforms) const;
+    /// The viscous step, with the last step's pressure in it.
+    Field<Faces> diffuse(const Field<Faces>& u, const Pressure::Work& work);
     Field<Cells4> divergence(const Field<Faces>& u);
-    Field<Faces> subtract_gradient(const Field<Faces>& u);
+    Field<Cells4> solve_pressure(const Field<Cells4>& b, const Pressure::Work& work);
+    Field<Faces> project(Projection& projection, const Field<Faces>& u, const Field<Cells4>& phi,
+                         float scale);
+    /// What the viscous term's links leave out of the torque.
+    std::vector<glm::dvec3> turning_torque(const std::vector<BodyState>& bodies) const;
     void diagnose(const Field<Cells4>& before);
+    bool is_viscous() const { return setup_.viscosity_pa_s > 0.0; }
+    float lambda() const;
 
     // --- state, and who writes it                                             unit       cells
     Gpu& gpu_;
     Field<Faces> u_;                     // velocity, subtract_gradient          m/s       (nx+1, ny+1, nz+1)
     Field<Cells4> phi_;                  // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
+    Field<Cells4> increment_;            // of phi in a viscous step              m/s       (nx, ny, nz)
+    Field<Faces> diffused_;              // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)
     std::optional<Field<Cells>> smoke_;  // density, SmokeTransport              1         (nx, ny, nz)
+    std::vector<double> volumes_m3_;     // of the bodies
     std::vector<BodyState> before_;      // bodies at the end of the last step
     std::vector<Box> boxes_;             // cells near each body, this step
     long step_ = 0;
@@ -44,16 +71,19 @@ class CutCellFluid final : public Fluid {
     double dt_s_ = 0.0;
 
     // --- passes the scene called for
+    Walls walls_;
     VelocityTransport advect_;
     std::optional<SmokeTransport> advect_smoke_;
-    std::optional<Pass> drive_;
+    std::optional<Pass> drive_, body_forces_;
     std::optional<Fractions> fractions_;
     BodyUniforms body_uniforms_;
     Pass divergence_;
     std::optional<Pass> divergence_cut_;
     Pressure pressure_;
-    Pass project_, project_walls_;
-    std::optional<Pass> project_cut_;
+    Projection project_;
+    std::optional<ViscousTerm> viscosity_;
+    std::optional<Projection> predict_;
+    std::optional<Pass> add_pressure_;
     std::optional<Traction> traction_;
     std::optional<Pass> diagnose_;
     std::optional<Reduce> reduce_diagnosis_;

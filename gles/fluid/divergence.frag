@@ -5,13 +5,25 @@
 // writes  b           RGBA32F  Cells4 (nx, ny, nz)         [m/s]   times h^2: volume flowing out of the cell per second
 // fetches 13, CUT 19
 //
-// Variants: plain for cells away from solids; CUT near them. Tank walls let nothing through.
+// Variants: plain for cells away from solids; CUT near them. Tank walls let nothing through; with THROUGH, some do (walls.h).
 uniform sampler2D velocity;
 
 out vec4 b;
 
 #ifdef CUT
 uniform sampler2D ax, ay, az;
+#endif
+
+#ifdef THROUGH
+// What flows through a wall's faces beside four cells: through an inflow what it says, through an open wall what there is.
+vec4 flows(int wall, vec4 u, ivec3 c, vec3 face) {
+    int axis = wall / 2;
+    float inflow = wall % 2 == 0 ? INFLOW_LOW[axis] : INFLOW_HIGH[axis];
+    vec3 x = vec3(c.xy, 4 * c.z) + face;
+    vec4 given;
+    for (int lane = 0; lane < 4; ++lane) given[lane] = wall_velocity(wall, x + vec3(0.0, 0.0, lane))[axis];
+    return mix(u, given, inflow);
+}
 #endif
 
 void main() {
@@ -32,6 +44,19 @@ void main() {
     vec4 low_z = w, high_z = vec4(w.yzw, top);
     vec4 z = float(4 * c.z) + vec4(0.0, 1.0, 2.0, 3.0);
 
+#ifdef THROUGH
+    if (c.x == 0) low_x = flows(0, low_x, c, vec3(0.0, 0.5, 0.5));
+    if (c.x + 1 == n.x) high_x = flows(1, high_x, c, vec3(1.0, 0.5, 0.5));
+    if (c.y == 0) low_y = flows(2, low_y, c, vec3(0.5, 0.0, 0.5));
+    if (c.y + 1 == n.y) high_y = flows(3, high_y, c, vec3(0.5, 1.0, 0.5));
+    vec4 at_low = vec4(lessThanEqual(z, vec4(0.0))), at_high = vec4(greaterThanEqual(z + 1.0, vec4(n.z)));
+    low_z = mix(low_z, flows(4, low_z, c, vec3(0.5, 0.5, 0.0)), at_low);
+    high_z = mix(high_z, flows(5, high_z, c, vec3(0.5, 0.5, 1.0)), at_high);
+    vec3 open_low = min(OPEN_LOW + INFLOW_LOW, 1.0), open_high = min(OPEN_HIGH + INFLOW_HIGH, 1.0);
+#else
+    const vec3 open_low = vec3(0.0), open_high = vec3(0.0);
+#endif
+
 #ifdef CUT
     vec4 lx = at(ax, FRACTION, c), hx = at(ax, FRACTION, c + ivec3(1, 0, 0));
     vec4 ly = at(ay, FRACTION, c), hy = at(ay, FRACTION, c + ivec3(0, 1, 0));
@@ -47,11 +72,11 @@ void main() {
     }
 #endif
 
-    low_x *= float(c.x > 0);
-    high_x *= float(c.x + 1 < n.x);
-    low_y *= float(c.y > 0);
-    high_y *= float(c.y + 1 < n.y);
-    low_z *= vec4(greaterThan(z, vec4(0.0)));
-    high_z *= vec4(lessThan(z + 1.0, vec4(n.z)));
+    low_x *= c.x > 0 ? 1.0 : open_low.x;
+    high_x *= c.x + 1 < n.x ? 1.0 : open_high.x;
+    low_y *= c.y > 0 ? 1.0 : open_low.y;
+    high_y *= c.y + 1 < n.y ? 1.0 : open_high.y;
+    low_z *= mix(vec4(open_low.z), vec4(1.0), vec4(greaterThan(z, vec4(0.0))));
+    high_z *= mix(vec4(open_high.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(n.z))));
     b = (high_x - low_x + high_y - low_y + high_z - low_z) * vec4(lessThan(z, vec4(n.z)));
 }

@@ -6,17 +6,21 @@
 // fetches 42
 #include "velocity.glsl"
 #include "maccormack.glsl"
+#include "beyond.glsl"
 
 uniform sampler2D velocity, forward;
 uniform float dt_h;  // dt / h  [s/m]
 
 out vec4 result;
 
-vec4 corrected(vec3 s, vec3 displacement, vec4 here, vec4 ahead) {
+// One component; near a wall the fluid sticks to, the wall is a donor too.
+float corrected(int component, vec3 s, vec3 displacement, vec4 here, vec4 ahead) {
     vec4 least, most;
     donors(velocity, FACES, s - displacement, least, most);
-    vec4 back = sample_linear(forward, FACES, s + displacement);
-    return clamp(ahead + 0.5 * (here - back), least, most);
+    float back = to_walls(sample_linear(forward, FACES, s + displacement)[component], component, s + displacement);
+    float donor = to_walls(ahead[component], component, s - displacement);
+    return clamp(ahead[component] + 0.5 * (here[component] - back), min(least[component], donor),
+                 max(most[component], donor));
 }
 
 void main() {
@@ -24,6 +28,6 @@ void main() {
     vec3 s = vec3(c) + 0.5;
     vec4 here = at(velocity, FACES, c), ahead = at(forward, FACES, c);
     FaceVelocities v = velocity_on_faces(velocity, c, here.xyz);
-    result = vec4(corrected(s, dt_h * v.x, here, ahead).x, corrected(s, dt_h * v.y, here, ahead).y,
-                  corrected(s, dt_h * v.z, here, ahead).z, 0.0);
+    result = vec4(corrected(0, s, dt_h * v.x, here, ahead), corrected(1, s, dt_h * v.y, here, ahead),
+                  corrected(2, s, dt_h * v.z, here, ahead), 0.0);
 }

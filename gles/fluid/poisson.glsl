@@ -22,13 +22,31 @@ vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
     float has_xl = float(c.x > 0), has_xh = float(c.x + 1 < CELLS.x);
     float has_yl = float(c.y > 0), has_yh = float(c.y + 1 < CELLS.y);
     centre = p;
+#ifdef THROUGH
+    // Open walls: phi = 0 outside, half a cell away.
+    float out_x = float(c.x == 0) * OPEN_LOW.x + float(c.x + 1 == CELLS.x) * OPEN_HIGH.x;
+    float out_y = float(c.y == 0) * OPEN_LOW.y + float(c.y + 1 == CELLS.y) * OPEN_HIGH.y;
+    vec4 out_z = (1.0 - has_zl) * OPEN_LOW.z + valid * (1.0 - has_zh) * OPEN_HIGH.z;
+#endif
 #ifdef CUT
     vec4 lz = at(az, FRACTION, c);
     vec4 wxl = has_xl * at(ax, FRACTION, c), wxh = has_xh * at(ax, FRACTION, c + ivec3(1, 0, 0));
     vec4 wyl = has_yl * at(ay, FRACTION, c), wyh = has_yh * at(ay, FRACTION, c + ivec3(0, 1, 0));
     vec4 wzl = has_zl * lz, wzh = has_zh * vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x);
     diagonal = valid * (wxl + wxh + wyl + wyh + wzl + wzh);
-    return valid * (wxl * (xl - p) + wxh * (xh - p) + wyl * (yl - p) + wyh * (yh - p) + wzl * (zl - p) + wzh * (zh - p));
+    vec4 sum = valid * (wxl * (xl - p) + wxh * (xh - p) + wyl * (yl - p) + wyh * (yh - p) + wzl * (zl - p) + wzh * (zh - p));
+#ifdef THROUGH
+    vec4 outside = out_x + out_y + out_z;
+#ifndef COARSE
+    // A body may stand in the opening. Coarse grids of an odd grid have no face there, and do without.
+    ivec3 to = c + ivec3(float(c.x > 0), float(c.y > 0), 0);
+    outside = out_x * at(ax, FRACTION, ivec3(to.x, c.yz)) + out_y * at(ay, FRACTION, ivec3(c.x, to.y, c.z)) +
+              out_z * mix(vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x), lz, 1.0 - has_zl);
+#endif
+    diagonal += valid * outside;
+    sum -= valid * outside * p;
+#endif
+    return sum;
 #else
     // Clamping made phi_nb = phi at the walls in x and y, so only the diagonal must know of them.
     vec4 in_x = valid * (has_xl + has_xh), in_y = valid * (has_yl + has_yh), in_z = valid * (has_zl + has_zh);
@@ -37,11 +55,17 @@ vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
 #ifdef LAST_CELL
     float sx = c.x + 1 < CELLS.x ? 1.0 : LAST_CELL.x, sy = c.y + 1 < CELLS.y ? 1.0 : LAST_CELL.y;
     vec4 sz = mix(vec4(LAST_CELL.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(CELLS.z))));
-    diagonal = sy * sz * in_x + sx * sz * in_y + sx * sy * in_z;
-    return sy * sz * lap_x + sx * sz * lap_y + sx * sy * lap_z;
+    vec4 share_x = sy * sz, share_y = sx * sz, share_z = vec4(sx * sy);
 #else
-    diagonal = in_x + in_y + in_z;
-    return lap_x + lap_y + lap_z;
+    vec4 share_x = vec4(1.0), share_y = vec4(1.0), share_z = vec4(1.0);
 #endif
+    diagonal = share_x * in_x + share_y * in_y + share_z * in_z;
+    vec4 sum = share_x * lap_x + share_y * lap_y + share_z * lap_z;
+#ifdef THROUGH
+    vec4 outside = valid * (out_x * share_x + out_y * share_y + out_z * share_z);
+    diagonal += outside;
+    sum -= outside * p;
+#endif
+    return sum;
 #endif
 }

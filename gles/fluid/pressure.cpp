@@ -13,7 +13,8 @@ constexpr int kCoarsest = 4;    // cells an axis at which coarsening stops
 constexpr int kSplitFrom = 24;  // cells an axis from which the plain variant is worth its extra draw
 constexpr int kCoarsestSweeps = 8;
 // Cells around a body or source that are swept once more. Fewer cost less, but the largest residual then sits
-// right outside: jet scene, steps of 0.07 s, divergence cut at least 66, 116, 129 and 185 times with 3, 6, 8, 10.
+// right outside: jet scene, steps of 0.07 s, divergence cut at least 66, 116, 129 and 185 times with 3, 6, 8, 10 after each
+// of 2 cycles; 111 times with 8 after the last one alone, which is what is done.
 constexpr int kRoughReach = 8;
 
 // The sweeps of one visit smooth what a coarser grid cannot hold: eigenvalues of D^-1 A from 1/3 up to 2.
@@ -52,7 +53,7 @@ std::vector<float> chebyshev_weights(int m, double low, double high) {
     return weights;
 }
 
-Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions)
+Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions, const Walls& walls)
     : gpu_(&gpu), fractions_(fractions) {
     const std::vector<glm::ivec3> grids = multigrid_levels(cells);
     for (std::size_t l = 0; l < grids.size(); ++l) {
@@ -69,14 +70,13 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
     for (std::size_t l = 0; l < grids.size(); ++l) {
         Level& level = levels_[l];
         const AtlasLayout here = Cells4::layout(grids[l]);
-        level.sweep.emplace(make(gpu, "smooth", "gles/fluid/smooth.frag", l, here, {}));
-        if (l > 0)
-            level.first_sweep.emplace(make(gpu, "smooth from zero", "gles/fluid/smooth.frag", l, here,
-                                           {.defines = {{"FROM_ZERO", ""}}}));
+        level.sweep.emplace(make(gpu, "smooth", "gles/fluid/smooth.frag", l, here, {}, walls));
+        level.first_sweep.emplace(make(gpu, "smooth from zero", "gles/fluid/smooth.frag", l, here,
+                                       {.defines = {{"FROM_ZERO", ""}}}, walls));
         if (l + 1 == grids.size()) break;
         const AtlasLayout coarse = Cells4::layout(grids[l + 1]);
         level.restrict.emplace(
-            make(gpu, "restrict residual", "gles/fluid/restrict_residual.frag", l, coarse, {}));
+            make(gpu, "restrict residual", "gles/fluid/restrict_residual.frag", l, coarse, {}, walls));
         Variant prolong;
         prolong.layouts = {{"COARSE", coarse}};
         prolong.defines = {{"COARSE_CELLS", glsl(grids[l + 1])}};
@@ -86,18 +86,20 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
 }
 
 Pressure::Split Pressure::make(Gpu& gpu, const char* name, const char* shader, std::size_t l,
-                               const AtlasLayout& target, Variant variant) {
+                               const AtlasLayout& target, Variant variant, const Walls& walls) {
     const glm::ivec3 n = levels_[l].cells;
     variant.layouts.emplace_back("PHI", Cells4::layout(n));
     variant.layouts.emplace_back("FRACTION", Faces4::layout(n));
     variant.defines.emplace_back("CELLS", glsl(n));
     const glm::vec3 covered =
         glm::vec3(levels_[0].cells) / std::exp2(static_cast<float>(l)) - glm::vec3(n - 1);
+    walls.declare(variant, covered);
     Variant cut = variant;
     if (covered != glm::vec3(1.0f))
         variant.defines.emplace_back(
             "LAST_CELL", fmt::format("vec3({:.8f}, {:.8f}, {:.8f})", covered.x, covered.y, covered.z));
     cut.defines.emplace_back("CUT", "");
+    if (l > 0) cut.defines.emplace_back("COARSE", "");
     if (!fractions_) return {Pass(gpu, fmt::format("{} {}", name, l), shader, target, variant), {}};
     if (!levels_[l].split) return {Pass(gpu, fmt::format("{} {} cut", name, l), shader, target, cut), {}};
     return {Pass(gpu, fmt::format("{} {}", name, l), shader, target, variant),
@@ -190,16 +192,23 @@ Field<Cells4> Pressure::cycle(std::size_t l, std::optional<Field<Cells4>> phi, f
 }
 
 Field<Cells4> Pressure::solve(Field<Cells4> phi, const Field<Cells4>& b, const Work& work) {
+    return cycles(std::move(phi), b, work);
+}
+
+Field<Cells4> Pressure::solve(const Field<Cells4>& b, const Work& work) {
+    return cycles(std::nullopt, b, work);
+}
+
+Field<Cells4> Pressure::cycles(std::optional<Field<Cells4>> phi, const Field<Cells4>& b, const Work& work) {
     std::vector<Box> at_level = work.cut;
     for (Level& level : levels_) {
         level.boxes = at_level;
         for (Box& box : at_level) box = box.coarsen().grow(1);
     }
-    for (int i = 0; i < work.cycles; ++i) {
+    for (int i = 0; i < work.cycles; ++i)
         phi = cycle(0, std::move(phi), i == 0 ? work.guess_scale : 1.0f, b);
-        if (!work.rough.empty()) sweep_rough(phi, b, work.rough);
-    }
-    return phi;
+    if (!work.rough.empty()) sweep_rough(*phi, b, work.rough);
+    return *std::move(phi);
 }
 
 }  // namespace eddy::gles

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "gles/body/fractions.h"
+#include "gles/fluid/walls.h"
 
 namespace eddy::gles {
 
@@ -25,11 +26,11 @@ struct BodyMotion {
 ///
 /// Two things make few cycles enough for moving bodies and strong sources, and cost little because they are
 /// drawn around them only: the last pressure is shifted along with a body before it serves as first guess
-/// (follow.frag), and each cycle ends with two more sweeps there, where nearly all of the residual is.
+/// (follow.frag), and the last cycle ends with two more sweeps there, where nearly all of the residual is.
 class Pressure {
   public:
     /// `fractions`: null when nothing solid is in the tank. Must outlive this.
-    Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions);
+    Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions, const Walls& walls);
 
     /// Moves phi along with the bodies, to serve as first guess for where they are now; `boxes` as for
     /// solve().
@@ -39,10 +40,12 @@ class Pressure {
         float guess_scale = 1.0f;  ///< the first guess is this times phi, which grows with dt
         std::vector<Box> cut{};    ///< cells whose fractions may not be 1
         std::vector<Box>
-            rough{};  ///< those, and all where b jumps from cell to cell: swept twice more a cycle
+            rough{};  ///< those, and all where b jumps from cell to cell: swept twice more
     };
     /// A better phi for right-hand side b.
     Field<Cells4> solve(Field<Cells4> phi, const Field<Cells4>& b, const Work& work);
+    /// The same, from phi = 0.
+    Field<Cells4> solve(const Field<Cells4>& b, const Work& work);
 
   private:
     /// A pass in both variants: `plain` for the whole grid and `cut` for the boxes of solids over it.
@@ -59,13 +62,14 @@ class Pressure {
     };
 
     Split make(Gpu& gpu, const char* name, const char* shader, std::size_t level, const AtlasLayout& target,
-               Variant variant);
+               Variant variant, const Walls& walls);
     void draw(Split& pass, std::size_t level, std::vector<Input> inputs, const std::vector<Uniform>& uniforms,
               const Texture& out, const std::vector<Box>& boxes);
     Field<Cells4> sweep(std::size_t l, const Field<Cells4>& phi, float scale, const Field<Cells4>& b,
                         float omega);
     Field<Cells4> sweep_from_zero(std::size_t l, const Field<Cells4>& b, float omega);
     void sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std::vector<Box>& boxes);
+    Field<Cells4> cycles(std::optional<Field<Cells4>> phi, const Field<Cells4>& b, const Work& work);
     Field<Cells4> cycle(std::size_t l, std::optional<Field<Cells4>> phi, float scale, const Field<Cells4>& b);
 
     Gpu* gpu_;

@@ -1,16 +1,27 @@
-// project.frag     u = u* - grad phi;  u = u_solid where nothing flows;  u.n = 0 at the tank's walls
+// project.frag     u = u* - grad phi;  u = u_solid where nothing flows;  walls: u.n = 0, or what flows in, or -grad phi
 //
 // reads   velocity    RGBA32F  Faces (nx+1, ny+1, nz+1)    [m/s]
 // reads   phi         RGBA32F  Cells4 (nx, ny, nz)         [m/s]
 // reads   ax, ay, az  RGBA32F  Faces4                      variant CUT
+// reads   distances   RGBA32F  Faces                       [cells]   variants CUT and PREDICT together
 // writes  u           RGBA32F  Faces                       [m/s]
-// fetches 5, CUT 8, WALLS 15, CUT+WALLS 24
+// fetches 5, CUT 8, WALLS 15, CUT+WALLS 24, CUT+PREDICT 6, CUT+WALLS+PREDICT 18
 //
 // Variants: plain away from solids; CUT near them; WALLS for the layers at the upper walls, where components that own no
-// face there repeat their neighbour (velocity.glsl).
+// face there repeat their neighbour (velocity.glsl); THROUGH where walls let fluid through (walls.h). PREDICT is the step
+// before the viscous one: phi is the last step's times `scale`, and the fluid sticks to a body wherever a face's centre is in it.
 uniform sampler2D velocity, phi;
+#ifdef PREDICT
+uniform float scale;
+#else
+const float scale = 1.0;
+#endif
 #ifdef CUT
+#ifdef PREDICT
+uniform sampler2D distances;
+#else
 uniform sampler2D ax, ay, az;
+#endif
 #endif
 
 out vec4 result;
@@ -21,26 +32,48 @@ float lane(vec4 four, int z) {
 
 float potential(ivec3 c) {
     c = clamp(c, ivec3(0), CELLS - 1);
-    return lane(at(phi, PHI, ivec3(c.xy, c.z >> 2)), c.z);
+    return scale * lane(at(phi, PHI, ivec3(c.xy, c.z >> 2)), c.z);
 }
 
-float fraction(sampler2D a, ivec3 c) {
-    return lane(at(a, FRACTION, ivec3(c.xy, c.z >> 2)), c.z);
+#ifdef CUT
+// 1 where a component is the body's.
+vec3 solid_faces(ivec3 c) {
+#ifdef PREDICT
+    return vec3(lessThanEqual(at(distances, FACES, c).xyz, vec3(0.0)));
+#else
+    ivec3 slab = ivec3(c.xy, c.z >> 2);
+    vec3 a = vec3(lane(at(ax, FRACTION, slab), c.z), lane(at(ay, FRACTION, slab), c.z), lane(at(az, FRACTION, slab), c.z));
+    return vec3(lessThanEqual(a, vec3(0.0)));
+#endif
 }
+#endif
 
 // The three components of one texel. At a wall both potentials are the same, and the mask does the rest.
 vec3 projected(ivec3 c) {
     float p = potential(c);
     vec3 u = at(velocity, FACES, c).xyz;
     u -= p - vec3(potential(c - ivec3(1, 0, 0)), potential(c - ivec3(0, 1, 0)), potential(c - ivec3(0, 0, 1)));
+    vec3 low = vec3(lessThanEqual(c, ivec3(0))), high = vec3(greaterThanEqual(c, CELLS));
+#ifdef THROUGH
+    u -= p * (low * OPEN_LOW - high * OPEN_HIGH);
+#endif
 #ifdef CUT
-    vec3 a = vec3(fraction(ax, c), fraction(ay, c), fraction(az, c));
     vec3 x = vec3(c);
     vec3 solid = vec3(solid_velocity(x + vec3(0.0, 0.5, 0.5)).x, solid_velocity(x + vec3(0.5, 0.0, 0.5)).y,
                       solid_velocity(x + vec3(0.5, 0.5, 0.0)).z);
-    u = mix(u, solid, vec3(lessThanEqual(a, vec3(0.0))));
+    u = mix(u, solid, solid_faces(c));
 #endif
-    return u * vec3(greaterThan(c, ivec3(0))) * vec3(lessThan(c, CELLS));
+#ifdef THROUGH
+    vec3 inflow = low * INFLOW_LOW + high * INFLOW_HIGH;
+    ivec3 wall = ivec3(0, 2, 4) + ivec3(high);
+    vec3 of_wall = vec3(wall_velocity(wall.x, vec3(c) + vec3(0.0, 0.5, 0.5)).x,
+                        wall_velocity(wall.y, vec3(c) + vec3(0.5, 0.0, 0.5)).y,
+                        wall_velocity(wall.z, vec3(c) + vec3(0.5, 0.5, 0.0)).z);
+    vec3 closed = low * (1.0 - min(OPEN_LOW, 1.0)) + high * (1.0 - min(OPEN_HIGH, 1.0));
+    return mix(u, inflow * of_wall, closed);
+#else
+    return u * (1.0 - low) * (1.0 - high);
+#endif
 }
 
 void main() {

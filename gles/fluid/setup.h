@@ -1,7 +1,10 @@
 #pragma once
+#include <array>
+#include <functional>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,15 +15,63 @@ namespace eddy::gles {
 // What a fluid is made of and what moves in it, in SI units and the Tank frame (hal/frames.h). Fixed while it
 // runs.
 
+// Shapes, centred on the body's centre; where there is an axis, it is y of the body.
 struct Sphere {
     double radius_m = 0.01;
 };
-using Shape = std::variant<Sphere>;
+struct Cuboid {
+    glm::dvec3 size_m{0.02};  ///< full edges
+};
+struct Capsule {
+    double radius_m = 0.005, length_m = 0.02;  ///< between the centres of its caps
+};
+struct Cylinder {
+    double radius_m = 0.01, length_m = 0.02;  ///< a disk is a short one
+};
+struct Torus {
+    double radius_m = 0.01, tube_radius_m = 0.003;  ///< of the ring's middle line, and of the tube
+};
+struct Ellipsoid {
+    glm::dvec3 radii_m{0.01};
+};
+/// A flat blade under a round handle, both along y; the centre is the blade's. The handle starts there; its
+/// length is what shows above the blade.
+struct Paddle {
+    glm::dvec3 blade_m{0.02, 0.03, 0.003};  ///< full edges
+    double handle_radius_m = 0.002, handle_length_m = 0.03;
+};
+/// Regular: a corner on +y, and one of the lower three at x = 0, z > 0.
+struct Tetrahedron {
+    double edge_m = 0.02;
+};
+class DistanceGrid;
+/// A closed surface of triangles, as signed distances on a grid (gles/body/distance_grid.h).
+struct Mesh {
+    std::shared_ptr<const DistanceGrid> distance;
+};
+using Shape = std::variant<Sphere, Cuboid, Capsule, Cylinder, Torus, Ellipsoid, Paddle, Tetrahedron, Mesh>;
 
 struct BodySetup {
     Shape shape;
-    bool force = true;   ///< measure the force of the fluid on it
-    bool torque = true;  ///< and the torque about its centre
+    bool inside_out = false;  ///< solid outside the shape: a container
+    bool force = true;        ///< measure the force of the fluid on it
+    bool torque = true;       ///< and the torque about its centre
+};
+
+/// A vector field as GLSL: one expression for each component, of the floats x, y, z [m] and t [s].
+struct VectorFormula {
+    std::array<std::string, 3> glsl{"0.0", "0.0", "0.0"};
+};
+
+enum class WallKind {
+    Slip,    ///< no flow through, no friction along
+    NoSlip,  ///< no flow through; the fluid at the wall moves with it
+    Inflow,  ///< the fluid comes in, or is drawn off, with the wall's velocity
+    Open     ///< the fluid comes and goes; pressure 0 outside
+};
+struct WallSetup {
+    WallKind kind = WallKind::Slip;
+    VectorFormula velocity_m_s{};  ///< of NoSlip, along it, and of Inflow
 };
 
 /// A ball of fluid that is driven, or from which smoke comes, or both.
@@ -48,18 +99,31 @@ enum class Advection {
     MacCormack       ///< second order with limiter, each face traced from its own centre
 };
 
+/// How Yang2009 adds up the force of each cell.
+enum class ForceSum {
+    Gpu,  ///< by parallel reduction, and one small read-back
+    Cpu   ///< reads the whole force texture back and adds it up there: what the paper compares with
+};
+
 struct SolverSetup {
     Method method = Method::CutCell;
     Advection advection = Advection::SemiLagrangian;
     int cycles = 2;          ///< multigrid V-cycles a step (CutCell)
+    int viscous_cycles = 2;  ///< the same for the viscous term, where there is one
     int jacobi_sweeps = 40;  ///< (Yang2009)
+    ForceSum force_sum = ForceSum::Gpu;
 };
 
 struct FluidSetup {
     glm::ivec3 cells{32};
     double cell_m = 0.005;  ///< h, edge of the cubic cell
     double density_kg_m3 = 1.2;
-    glm::dvec3 velocity_m_s{0.0};  ///< everywhere at the start
+    double viscosity_pa_s = 0.0;  ///< mu, dynamic; 0: no viscous term anywhere
+    glm::dvec3 gravity_m_s2{0.0};
+    std::array<WallSetup, 6> walls{};  ///< x low, x high, y low, y high, z low, z high
+    std::string formula_helpers{};     ///< GLSL functions that the formulas call
+    /// Velocity at the start at a place of the tank [m]; empty: at rest.
+    std::function<glm::dvec3(const glm::dvec3&)> velocity_at_start{};
     std::optional<SmokeSetup> smoke{};
     std::vector<SourceSetup> sources{};
     std::vector<BodySetup> bodies{};

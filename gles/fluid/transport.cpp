@@ -20,25 +20,26 @@ Box ball_box(const glm::vec4& ball, const glm::ivec3& limit) {
         {glm::ivec3(0), limit});
 }
 
-VelocityTransport::VelocityTransport(Gpu& gpu, const glm::ivec3& cells, double cell_m, Advection scheme)
-    : gpu_(&gpu),
-      cell_m_(cell_m),
-      forward_(gpu, "advect velocity",
-               scheme == Advection::MacCormack ? "gles/fluid/advect_faces.frag"
-                                               : "gles/fluid/advect_velocity.frag",
-               Faces::layout(cells), {.layouts = {{"FACES", Faces::layout(cells)}}}) {
-    if (scheme == Advection::MacCormack)
-        correct_.emplace(gpu, "correct velocity", "gles/fluid/maccormack_velocity.frag", Faces::layout(cells),
-                         Variant{.layouts = {{"FACES", Faces::layout(cells)}}});
+VelocityTransport::VelocityTransport(Gpu& gpu, const FluidSetup& setup, const Walls& walls)
+    : gpu_(&gpu), cell_m_(setup.cell_m) {
+    const AtlasLayout faces = Faces::layout(setup.cells);
+    Variant variant{.layouts = {{"FACES", faces}}};
+    walls.declare(variant);
+    const bool corrects = setup.solver.advection == Advection::MacCormack;
+    forward_.emplace(gpu, "advect velocity",
+                     corrects ? "gles/fluid/advect_faces.frag" : "gles/fluid/advect_velocity.frag", faces,
+                     variant);
+    if (corrects)
+        correct_.emplace(gpu, "correct velocity", "gles/fluid/maccormack_velocity.frag", faces, variant);
 }
 
-Field<Faces> VelocityTransport::operator()(const Field<Faces>& u, double dt_s) {
-    const Uniform dt_h{"dt_h", static_cast<float>(dt_s / cell_m_)};
+Field<Faces> VelocityTransport::operator()(const Field<Faces>& u, double dt_s, const Uniform& wall_time) {
+    const std::vector<Uniform> uniforms{{"dt_h", static_cast<float>(dt_s / cell_m_)}, wall_time};
     Field<Faces> forward(*gpu_, u.cells(), Format::RGBA32F);
-    forward_.draw({{"velocity", &u.texture()}}, {dt_h}, {&forward.texture()});
+    forward_->draw({{"velocity", &u.texture()}}, uniforms, {&forward.texture()});
     if (!correct_) return forward;
     Field<Faces> corrected(*gpu_, u.cells(), Format::RGBA32F);
-    correct_->draw({{"velocity", &u.texture()}, {"forward", &forward.texture()}}, {dt_h},
+    correct_->draw({{"velocity", &u.texture()}, {"forward", &forward.texture()}}, uniforms,
                    {&corrected.texture()});
     return corrected;
 }

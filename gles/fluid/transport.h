@@ -3,6 +3,7 @@
 
 #include "gles/field.h"
 #include "gles/fluid/setup.h"
+#include "gles/fluid/walls.h"
 #include "gles/pass.h"
 
 namespace eddy::gles {
@@ -10,14 +11,13 @@ namespace eddy::gles {
 /// Carries the velocity with itself: u* = u(x - dt u).
 class VelocityTransport {
   public:
-    VelocityTransport(Gpu& gpu, const glm::ivec3& cells, double cell_m, Advection scheme);
-    Field<Faces> operator()(const Field<Faces>& u, double dt_s);
+    VelocityTransport(Gpu& gpu, const FluidSetup& setup, const Walls& walls);
+    Field<Faces> operator()(const Field<Faces>& u, double dt_s, const Uniform& wall_time);
 
   private:
     Gpu* gpu_;
     double cell_m_;
-    Pass forward_;
-    std::optional<Pass> correct_;
+    std::optional<Pass> forward_, correct_;
 };
 
 /// Carries smoke with a velocity, lets it fade, and adds what the sources give.

@@ -19,8 +19,7 @@ AtlasLayout pixels(const glm::ivec2& size) {
 Variant scene_variant(const FluidSetup& fluid) {
     Variant v{
         .layouts = {{"SMOKE_CELLS", Cells::layout(fluid.cells)}, {"LIGHT", Cells::layout(half(fluid.cells))}},
-        .defines = {
-            {"CELLS", glsl(fluid.cells)}}};
+        .defines = {{"CELLS", glsl(fluid.cells)}}};
     if (fluid.smoke) v.defines.emplace_back("SMOKE", "");
     if (!fluid.bodies.empty()) {
         v.defines.emplace_back("BODY", "");
@@ -37,7 +36,7 @@ Renderer::Renderer(Gpu& gpu, const FluidSetup& fluid, const RenderSetup& setup)
       cell_m_(fluid.cell_m),
       march_size_(setup.half_resolution ? glm::ivec2((setup.width_px + 1) / 2, (setup.height_px + 1) / 2)
                                         : glm::ivec2(setup.width_px, setup.height_px)),
-      body_uniforms_(fluid.bodies, fluid.cell_m),
+      body_uniforms_(gpu, fluid.bodies, fluid.cell_m),
       light_(gpu, half(fluid.cells), Format::RG32F),
       picture_(gpu.textures().lease({setup.width_px, setup.height_px}, Format::RGBA8)),
       draw_light_(gpu, "light", "gles/render/light.frag", light_.layout(), scene_variant(fluid)),
@@ -70,16 +69,16 @@ void Renderer::draw(const Fluid& fluid, const std::vector<BodyState>& bodies) {
         {"exposure", static_cast<float>(setup_.exposure)},
         {"pixel_angle",
          static_cast<float>(glm::radians(camera.field_deg) / std::min(setup_.width_px, setup_.height_px))}};
-    if (!bodies.empty()) {
-        uniforms.push_back(body_uniforms_.centre());
-        uniforms.push_back(body_uniforms_.size());
-    }
-    std::vector<Input> inputs{{"light", &light_.texture()}};
+    const std::vector<Uniform> of_bodies = body_uniforms_.uniforms();
+    uniforms.insert(uniforms.end(), of_bodies.begin(), of_bodies.end());
+    const std::vector<Input>& body_inputs = body_uniforms_.inputs();
+    std::vector<Input> inputs = body_inputs;
+    inputs.push_back({"light", &light_.texture()});
 
     if (!march_smoke_) {
         {
             Gpu::Stage stage(gpu_, "light");
-            draw_light_.draw({}, uniforms, {&light_.texture()});
+            draw_light_.draw(body_inputs, uniforms, {&light_.texture()});
         }
         Gpu::Stage stage(gpu_, "render");
         draw_picture_.draw(inputs, uniforms, {&*picture_});
@@ -90,9 +89,11 @@ void Renderer::draw(const Fluid& fluid, const std::vector<BodyState>& bodies) {
     {
         Gpu::Stage stage(gpu_, "light");
         const Input smoke{"smoke", &fluid.smoke()->texture()};
-        draw_light_.draw({smoke}, uniforms, {&light_.texture()});
+        std::vector<Input> seen = body_inputs;
+        seen.push_back(smoke);
+        draw_light_.draw(seen, uniforms, {&light_.texture()});
         pair_smoke_->draw({smoke}, {}, {&smoke_pair.texture()});
-        pair_light_->draw(inputs, {}, {&light_pair.texture()});
+        pair_light_->draw({{"light", &light_.texture()}}, {}, {&light_pair.texture()});
     }
     Gpu::Stage stage(gpu_, "render");
     const TexturePool::Lease front = gpu_.textures().lease(march_size_, Format::RGBA16F);
@@ -104,8 +105,9 @@ void Renderer::draw(const Fluid& fluid, const std::vector<BodyState>& bodies) {
         layers.push_back(&*behind);
         inputs.push_back({"behind", &*behind});
     }
-    march_smoke_->draw({{"smoke", &smoke_pair.texture()}, {"light", &light_pair.texture()}}, uniforms,
-                       layers);
+    std::vector<Input> marched = body_inputs;
+    marched.insert(marched.end(), {{"smoke", &smoke_pair.texture()}, {"light", &light_pair.texture()}});
+    march_smoke_->draw(marched, uniforms, layers);
     draw_picture_.draw(inputs, uniforms, {&*picture_});
 }
 

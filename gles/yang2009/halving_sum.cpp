@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "gles/field.h"
-
 namespace eddy::gles {
 
 HalvingSum::HalvingSum(Gpu& gpu, const std::string& name, const glm::ivec3& cells, int target_width)

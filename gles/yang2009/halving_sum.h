@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "gles/field.h"
 #include "gles/pass.h"
 
 namespace eddy::gles {

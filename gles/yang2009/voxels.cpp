@@ -8,7 +8,7 @@ Voxels::Voxels(Gpu& gpu, const glm::ivec3& cells, const std::vector<BodySetup>& 
                 {.declarations = shape_declarations(bodies)}) {}
 
 void Voxels::update(const BodyUniforms& bodies) {
-    voxelise_.draw({}, {bodies.centre(), bodies.size(), bodies.velocity(), bodies.spin()}, {&io_.texture()});
+    voxelise_.draw(bodies.inputs(), bodies.uniforms(), {&io_.texture()});
 }
 
 Variant obstacle_variant(const Voxels* voxels) {

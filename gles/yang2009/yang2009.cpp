@@ -8,9 +8,6 @@
 #include "gles/grid_io.h"
 
 namespace eddy::gles {
-namespace {
-
-}  // namespace
 
 Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
     : Fluid(std::move(setup)),
@@ -19,7 +16,7 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
       phi_(gpu, setup_.cells, Format::R32F),
       voxels_(setup_.bodies.empty() ? std::optional<Voxels>()
                                     : std::optional<Voxels>(std::in_place, gpu, setup_.cells, setup_.bodies)),
-      body_uniforms_(setup_.bodies, setup_.cell_m),
+      body_uniforms_(gpu_, setup_.bodies, setup_.cell_m),
       advect_velocity_(gpu, "advect velocity", "gles/yang2009/advect_velocity.frag", u_.layout(),
                        obstacle_variant(voxels())),
       divergence_(gpu, "divergence", "gles/yang2009/divergence.frag", u_.layout(),
@@ -27,8 +24,8 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
       pressure_(gpu, setup_.cells, voxels()),
       project_(gpu, "project", "gles/yang2009/project.frag", u_.layout(), obstacle_variant(voxels())),
       results_(gpu, setup_) {
-    if (Results::measures(setup_))
-        force_.emplace(gpu, setup_.cells, setup_.cell_m, setup_.bodies, Results::width(setup_));
+    if (Results::measures(setup_)) force_.emplace(gpu, setup_, Results::width(setup_));
+    if (setup_.viscosity_pa_s > 0.0) viscosity_.emplace(gpu, setup_, voxels());
     for (const SourceSetup& source : setup_.sources) {
         if (source.velocity_m_s && !drive_)
             drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", u_.layout());
@@ -49,8 +46,14 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
 
 void Yang2009Fluid::reset() {
     const glm::ivec3 n = setup_.cells;
-    set_velocity(
-        std::vector<glm::vec3>(static_cast<std::size_t>(n.x * n.y * n.z), glm::vec3(setup_.velocity_m_s)));
+    std::vector<glm::vec3> u;
+    for (int z = 0; z < n.z; ++z)
+        for (int y = 0; y < n.y; ++y)
+            for (int x = 0; x < n.x; ++x)
+                u.emplace_back(setup_.velocity_at_start
+                                   ? setup_.velocity_at_start(setup_.cell_m * (glm::dvec3(x, y, z) + 0.5))
+                                   : glm::dvec3(0.0));
+    set_velocity(u);
     clear(phi_.texture());
     if (setup_.smoke) {
         smoke_ = Field<Cells>(gpu_, n, Format::R32F);
@@ -71,7 +74,16 @@ void Yang2009Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool
     Field<Cells> u;
     {
         Gpu::Stage stage(gpu_, "advect velocity");
-        u = drive_sources(advect_velocity());  // u* = u(x - dt u);  u* = u_obstacle in obstacles
+        u = advect_velocity();  // u* = u(x - dt u);  u* = u_obstacle in obstacles
+    }
+    const float diffusion = diffusion_number(setup_, dt_s);
+    if (viscosity_) {
+        Gpu::Stage stage(gpu_, "viscosity");
+        u = viscosity_->solve(u, diffusion, time_s_ + dt_s);  // (1 - nu dt laplacian) u = u*
+    }
+    if (drive_) {
+        Gpu::Stage stage(gpu_, "drive sources");
+        u = drive_sources(std::move(u));  // u* = u_source in the balls of the sources
     }
     if (smoke_) {
         Gpu::Stage stage(gpu_, "advect smoke");
@@ -94,7 +106,8 @@ void Yang2009Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool
     time_s_ += dt_s;
     if (force_) {
         Gpu::Stage stage(gpu_, "force");
-        force_->draw(phi_, *voxels_, body_uniforms_, bodies, results_.row());  // F = sum -p n dA
+        force_->draw(phi_, u, diffusion, *voxels_, body_uniforms_, bodies,
+                     results_.row());  // F = sum of (-p n + tau n) dA
     }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");

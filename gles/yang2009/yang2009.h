@@ -2,18 +2,20 @@
 #include <optional>
 
 #include "gles/fluid/fluid.h"
-#include "gles/fluid/transport.h"
 #include "gles/fluid/results.h"
+#include "gles/fluid/transport.h"
 #include "gles/reduce.h"
 #include "gles/yang2009/force.h"
 #include "gles/yang2009/jacobi.h"
+#include "gles/yang2009/viscosity.h"
 
 namespace eddy::gles {
 
 /// The yardstick: the pipeline of Yang, Lu, Safonova & Kuchenbecker 2009, "GPU Methods for Real-Time Haptic
 /// Interaction with 3D Fluids", over the solver it follows, Crane, Llamas & Tariq 2007 (GPU Gems 3, ch. 30).
 /// Collocated grid: velocity and pressure at cell centres; obstacles are whole cells; semi-Lagrangian
-/// whatever setup.solver.advection says.
+/// whatever setup.solver.advection says. A viscous fluid sticks to obstacles and to walls that have
+/// friction; nothing flows through any wall.
 ///
 /// Two properties of the method, kept as they are: the wide divergence and the compact Laplacian do not
 /// match, so that divergence remains after the projection however many sweeps; and of an obstacle's sudden
@@ -57,6 +59,7 @@ class Yang2009Fluid final : public Fluid {
     std::optional<Voxels> voxels_;
     BodyUniforms body_uniforms_;
     Pass advect_velocity_;
+    std::optional<Viscosity> viscosity_;
     std::optional<Pass> drive_;
     std::optional<Pass> advect_smoke_, smoke_sources_;
     std::vector<glm::vec4> smoke_balls_;  ///< sources of smoke: centre, radius [cells]

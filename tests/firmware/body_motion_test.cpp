@@ -79,7 +79,7 @@ TEST(BodyMotions, RestsUntilItsStart) {
 TEST(BodyMotions, SpinsAboutItsAxis) {
     const Scene scene = scene_with("motion = \"prescribed\"\nspin_rad_s = [0.0, 0.0, 2.0]\n");
     const gles::BodyState state = at(scene, 0.25 * std::numbers::pi);  // a quarter turn
-    EXPECT_EQ(state.spin_rad_s, glm::dvec3(0.0, 0.0, 2.0));
+    expect_near(state.spin_rad_s, {0.0, 0.0, 2.0}, 1e-9, 0.0);
     EXPECT_EQ(state.centre_m, kCentre);
     expect_near(state.orientation * glm::dvec3(1.0, 0.0, 0.0), {0.0, 1.0, 0.0}, 1e-12, 0.0);
 }

@@ -52,7 +52,7 @@ TEST(FluidSetup, CarriesTankSourcesAndBodiesOver) {
     EXPECT_EQ(s.cells, glm::ivec3(40, 20, 30));
     EXPECT_NEAR(s.cell_m, 0.01, 1e-15);
     EXPECT_EQ(s.density_kg_m3, 900.0);
-    EXPECT_EQ(s.velocity_m_s, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(s.velocity_at_start(glm::dvec3(0.0)), glm::dvec3(0.1, 0.2, 0.3));
     ASSERT_EQ(s.sources.size(), 2u);
     EXPECT_EQ(s.sources[0].smoke_per_s, 3.0);
     EXPECT_FALSE(s.sources[0].velocity_m_s);

@@ -1,5 +1,7 @@
 #include "firmware/show.h"
 
+#include "firmware/fluid_setup.h"
+
 #include <algorithm>
 
 #include "tests/gles/gl_fixture.h"
@@ -154,7 +156,7 @@ TEST_F(ShowTest, WithoutAHandNothingIsPublished) {
 
 TEST(HapticOrders, KeepTheBallInTheTankAndCarryTheScenesGain) {
     const Scene scene = scene_with("");
-    const HapticOrders orders = orders_for(scene);
+    const HapticOrders orders = orders_for(scene, fluid_setup(scene));
     EXPECT_TRUE(orders.enabled);
     EXPECT_EQ(orders.gain, 20000.0);
     EXPECT_EQ(orders.tank_from_device.centre_m, scene.haptics.centre_m);
@@ -170,7 +172,7 @@ TEST(HapticOrders, HoldABallThatFillsTheTankInItsMiddle) {
         read_scene("[tank]\ncells = [16, 16, 16]\n[[body]]\nradius_m = 0.09\nmotion = \"held\"\n",
                    "test.toml")
             .scene;
-    const HapticOrders orders = orders_for(scene);
+    const HapticOrders orders = orders_for(scene, fluid_setup(scene));
     EXPECT_EQ(orders.lowest_m, orders.highest_m);
     EXPECT_EQ(orders.lowest_m, 0.5 * scene.tank.size_m);
 }

@@ -22,7 +22,7 @@ template <class Phi>
 concept Pushes = requires(Traction& traction, const Field<Phi>& phi, const FaceFractions& a,
                           const BodyUniforms& u, const std::vector<BodyState>& states,
                           const std::vector<Box>& boxes, const Texture& target) {
-    traction.draw(phi, a, u, states, boxes, target);
+    traction.draw(phi, a, u, states, boxes, target, std::nullopt);
 };
 
 static_assert(Takes<Cells, Cells> && Takes<Faces4, Faces4>);

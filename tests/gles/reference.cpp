@@ -22,16 +22,22 @@ ReferenceFluid::ReferenceFluid(const glm::ivec3& cells)
       u(static_cast<std::size_t>((n.x + 1) * (n.y + 1) * (n.z + 1)), glm::dvec3(0.0)),
       phi(static_cast<std::size_t>(n.x * n.y * n.z), 0.0) {}
 
-double ReferenceFluid::fraction(const glm::dvec3& x) const {
+double ReferenceFluid::volume_share(const glm::dvec3& x) const {
     if (radius <= 0.0) return 1.0;
     const glm::dvec3 d = x - centre;
-    const double distance = glm::length(d) - radius;
+    double distance = glm::length(d) - radius;
     if (std::abs(distance) > 1.0) return distance > 0.0 ? 1.0 : 0.0;
-    // The normal by central differences over 0.1 cell, as for shapes that have no closed form.
+    // Normal and curvature by differences over half a cell, as for shapes that have no closed form.
     glm::dvec3 g;
-    for (int a = 0; a < 3; ++a)
-        g[a] = (glm::length(d + 0.05 * glm::dvec3(kAxis[a])) - glm::length(d - 0.05 * glm::dvec3(kAxis[a]))) /
-               0.1;
+    double laplacian = -6.0 * distance;
+    for (int a = 0; a < 3; ++a) {
+        const double high = glm::length(d + 0.25 * glm::dvec3(kAxis[a])) - radius,
+                     low = glm::length(d - 0.25 * glm::dvec3(kAxis[a])) - radius;
+        g[a] = 2.0 * (high - low);
+        laplacian += high + low;
+    }
+    distance += std::clamp(16.0 * laplacian, -2.0, 2.0) / 24.0;
+    distance /= glm::length(g);
     const glm::dvec3 m = glm::max(glm::abs(glm::normalize(g)), glm::dvec3(0.3));
     const auto cube = [](double v) { return v > 0.0 ? v * v * v : 0.0; };
     const double alpha = distance + 0.5 * (m.x + m.y + m.z);
@@ -42,17 +48,23 @@ double ReferenceFluid::fraction(const glm::dvec3& x) const {
     return volume < 1e-4 ? 0.0 : std::min(volume, 1.0);
 }
 
+double ReferenceFluid::fraction(int a, const glm::dvec3& x) const {
+    const double here = volume_share(x);
+    const auto gain = [&](double there) { return 0.25 * (here - there) * std::min(here, there); };
+    return here + gain(volume_share(x + glm::dvec3(kAxis[a]))) + gain(volume_share(x - glm::dvec3(kAxis[a])));
+}
+
 double ReferenceFluid::open(int a, int i, int j, int k) const {
     const glm::ivec3 c(i, j, k);
     if (c[a] == 0 || c[a] == n[a]) return 0.0;
-    return fraction(glm::dvec3(c) + 0.5 * (1.0 - glm::dvec3(kAxis[a])));
+    return fraction(a, glm::dvec3(c) + 0.5 * (1.0 - glm::dvec3(kAxis[a])));
 }
 
 double ReferenceFluid::flux(int a, int i, int j, int k) const {
     const glm::ivec3 c(i, j, k);
     if (c[a] == 0 || c[a] == n[a]) return 0.0;
     const glm::dvec3 x = glm::dvec3(c) + 0.5 * (1.0 - glm::dvec3(kAxis[a]));
-    const double f = fraction(x);
+    const double f = fraction(a, x);
     return f * u[face(i, j, k)][a] + (1.0 - f) * solid_velocity(x)[a];
 }
 
@@ -160,7 +172,7 @@ glm::dvec3 ReferenceFluid::force() const {
     for_cells(n, [&](int i, int j, int k) {
         for (int a = 0; a < 3; ++a) {
             const glm::dvec3 half = 0.5 * (1.0 - glm::dvec3(kAxis[a])), low = glm::dvec3(i, j, k) + half;
-            sum[a] += phi[cell(i, j, k)] * (fraction(low) - fraction(low + glm::dvec3(kAxis[a])));
+            sum[a] += phi[cell(i, j, k)] * (fraction(a, low) - fraction(a, low + glm::dvec3(kAxis[a])));
         }
     });
     return sum;
@@ -172,7 +184,7 @@ glm::dvec3 ReferenceFluid::torque() const {
         glm::dvec3 f(0.0);
         for (int a = 0; a < 3; ++a) {
             const glm::dvec3 half = 0.5 * (1.0 - glm::dvec3(kAxis[a])), low = glm::dvec3(i, j, k) + half;
-            f[a] = phi[cell(i, j, k)] * (fraction(low) - fraction(low + glm::dvec3(kAxis[a])));
+            f[a] = phi[cell(i, j, k)] * (fraction(a, low) - fraction(a, low + glm::dvec3(kAxis[a])));
         }
         sum += glm::cross(glm::dvec3(i, j, k) + 0.5 - centre, f);
     });

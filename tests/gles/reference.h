@@ -21,7 +21,9 @@ struct ReferenceFluid {
     std::size_t cell(int i, int j, int k) const { return static_cast<std::size_t>((k * n.y + j) * n.x + i); }
 
     /// The fluid's share of the unit cube around x, by the closed form for a plane cut.
-    double fraction(const glm::dvec3& x) const;
+    double volume_share(const glm::dvec3& x) const;
+    /// The same for the face of axis a around x, sharpened along a (gles/body/sharpen_fractions.frag).
+    double fraction(int a, const glm::dvec3& x) const;
     glm::dvec3 solid_velocity(const glm::dvec3& x) const { return velocity + glm::cross(spin, x - centre); }
     /// Fraction of the face of axis `a` below cell (i,j,k); 0 on the walls of the box.
     double open(int a, int i, int j, int k) const;

@@ -33,14 +33,25 @@ double measured(Gpu& gpu, int n, double radius, const glm::dvec3& offset, const 
     return -glm::dot(fluid->result(true)->loads[0].force_n, direction) / volume;
 }
 
-TEST_F(AddedMass, OfASphereOfSixCellsIsWithinOneAndAHalfPercentOfTheExactValueForItsBox) {
-    // Validation case B2. Measured when the limit was set: 1.1 % low, offsets within 0.01 %.
+TEST_F(AddedMass, OfASphereOfSixCellsIsWithinOneAndAFifthOfAPercentOfTheExactValueForItsBox) {
+    // Validation case B2. Measured when the limit was set: 0.8 % low, offsets within 0.1 %.
     const double exact = exact_in_cube(6.0 / 64.0);
     for (const glm::dvec3 offset :
          {glm::dvec3(0.0), glm::dvec3(0.5, 0.25, 0.125), glm::dvec3(0.31, 0.47, 0.08)}) {
         const double c = measured(gpu, 64, 6.0, offset, {1.0, 0.0, 0.0}, 0.01);
         record("c_over_exact", c / exact);
-        EXPECT_NEAR(c, exact, 0.015 * exact) << "offset " << offset.x;
+        EXPECT_NEAR(c, exact, 0.012 * exact) << "offset " << offset.x;
+    }
+}
+
+TEST_F(AddedMass, OfASphereOfThreeCellsIsWithinFourPercent) {
+    // Measured when the limit was set: 3.7 % low.
+    const double exact = exact_in_cube(3.0 / 32.0);
+    for (const glm::dvec3 offset :
+         {glm::dvec3(0.0), glm::dvec3(0.5, 0.25, 0.125), glm::dvec3(0.31, 0.47, 0.08)}) {
+        const double c = measured(gpu, 32, 3.0, offset, {1.0, 0.0, 0.0}, 0.01);
+        record("c_over_exact_small", c / exact);
+        EXPECT_NEAR(c, exact, 0.04 * exact) << "offset " << offset.x;
     }
 }
 

@@ -12,6 +12,8 @@ namespace {
 
 using PressureSolve = GlTest;
 
+const FluidSetup closed;  // all slip walls
+
 Field<Cells4> upload(Gpu& gpu, const glm::ivec3& n, const std::vector<float>& values) {
     Field<Cells4> field(gpu, n, Format::RGBA32F);
     field.texture().upload(&pack_four(values, field.layout(), n)[0].x);
@@ -55,7 +57,7 @@ TEST_F(PressureSolve, FindsTheKnownDiscreteSolutionOnOddAndNonCubicGrids) {
                                glm::ivec3(128, 8, 8), glm::ivec3(9), glm::ivec3(7, 5, 6)}) {
         const Mode mode{n, {1, 2, 1}};
         const Field<Cells4> b = upload(gpu, n, mode.values(mode.eigenvalue()));
-        Pressure pressure(gpu, n, nullptr);
+        Pressure pressure(gpu, n, nullptr, Walls(closed));
         const Field<Cells4> phi =
             pressure.solve(upload(gpu, n, std::vector<float>(mode.values(0.0).size())), b, {.cycles = 12});
         const std::vector<float> got = unpack_four(phi.texture().download(), phi.layout(), n);
@@ -74,7 +76,7 @@ TEST_F(PressureSolve, EachCycleCutsTheResidualToASixthOrLess) {
                 noise.emplace_back(static_cast<float>(random()) / static_cast<float>(random.max()) - 0.5f);
         for (float& v : noise) v -= static_cast<float>(mean / static_cast<double>(noise.size()));
         const Field<Cells4> b = upload(gpu, n, noise);
-        Pressure pressure(gpu, n, nullptr);
+        Pressure pressure(gpu, n, nullptr, Walls(closed));
         const auto residual = [&](const Field<Cells4>& phi) {
             const std::vector<float> p = unpack_four(phi.texture().download(), phi.layout(), n);
             double sum = 0.0;
@@ -112,7 +114,7 @@ TEST_F(PressureSolve, AStepOfAnotherLengthStartsFromTheSamePressure) {
     // phi = dt p / (rho h): with half the time step the old pressure means half the old phi, nothing to solve.
     const glm::ivec3 n(24, 20, 22);
     const Mode mode{n, {1, 2, 1}};
-    Pressure pressure(gpu, n, nullptr);
+    Pressure pressure(gpu, n, nullptr, Walls(closed));
     const auto error_after_a_cycle = [&](float guess_scale) {
         const Field<Cells4> half = upload(gpu, n, mode.values(0.5 * mode.eigenvalue()));
         const Field<Cells4> phi =
@@ -130,7 +132,7 @@ TEST_F(PressureSolve, ARightHandSideWithAMeanGivesTheSameGradients) {
     std::vector<float> shifted = mode.values(mode.eigenvalue());
     for (float& v : shifted) v += 1e-3f;
     const Field<Cells4> b = upload(gpu, n, shifted);
-    Pressure pressure(gpu, n, nullptr);
+    Pressure pressure(gpu, n, nullptr, Walls(closed));
     Field<Cells4> phi = upload(gpu, n, std::vector<float>(shifted.size()));
     phi = pressure.solve(std::move(phi), b, {.cycles = 10});
     const std::vector<float> got = unpack_four(phi.texture().download(), phi.layout(), n);

@@ -43,11 +43,11 @@ struct VoxelGrid {
     /// T_IO of this sphere.
     Voxels voxels(Gpu& gpu) const {
         Voxels v(gpu, n, bodies());
-        v.update(uniforms());
+        v.update(uniforms(gpu));
         return v;
     }
-    BodyUniforms uniforms() const {
-        BodyUniforms u(bodies(), 1.0);
+    BodyUniforms uniforms(Gpu& gpu) const {
+        BodyUniforms u(gpu, bodies(), 1.0);
         u.set({state()});
         return u;
     }
@@ -65,6 +65,11 @@ struct VoxelGrid {
         std::vector<glm::vec3> u(count());
         for (std::size_t i = 0; i < u.size(); ++i) u[i] = {x[i], y[i], z[i]};
         return u;
+    }
+    Field<Cells> upload(Gpu& gpu, const std::vector<glm::vec3>& values) const {
+        Field<Cells> field(gpu, n, Format::RGBA32F);
+        field.texture().upload(&pack_vectors(values, field.layout())[0].x);
+        return field;
     }
     /// A field of one channel with these values.
     Field<Cells> upload(Gpu& gpu, const std::vector<float>& values) const {
@@ -92,5 +97,57 @@ inline FluidSetup unit_setup(const glm::ivec3& n, int sweeps) {
 }
 
 inline const glm::ivec3 kSixWays[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+struct ForceAndMoment {
+    glm::dvec3 force{0.0}, moment{0.0};
+};
+
+/// sigma n over the faces between sphere and fluid, phi from the fluid's side and the stress
+/// k (du_i/dx_j + du_j/dx_i) at the face's centre, where the moment is taken too.
+template <class P, class V>
+ForceAndMoment sum_over_faces(const VoxelGrid& grid, const std::vector<P>& phi, const std::vector<V>& u,
+                              double k) {
+    const auto u_at = [&](const glm::ivec3& c) {
+        return glm::dvec3(u[grid.index(glm::clamp(c, glm::ivec3(0), grid.n - 1))]);
+    };
+    ForceAndMoment sum;
+    grid.for_each_cell([&](const glm::ivec3& c) {
+        if (!grid.solid(c)) return;
+        for (const glm::ivec3& n : kSixWays) {
+            if (!grid.in_tank(c + n) || grid.solid(c + n)) continue;
+            glm::dmat3 du;  // du[j][i] = du_i / dx_j
+            for (int j = 0; j < 3; ++j) {
+                glm::ivec3 e(0);
+                e[j] = 1;
+                du[j] = n[j] != 0 ? static_cast<double>(n[j]) * (u_at(c + n) - u_at(c))
+                                  : 0.25 * (u_at(c + e) - u_at(c - e) + u_at(c + n + e) - u_at(c + n - e));
+            }
+            const glm::dmat3 sigma =
+                glm::dmat3(-static_cast<double>(phi[grid.index(c + n)])) + k * (du + glm::transpose(du));
+            const glm::dvec3 f = sigma * glm::dvec3(n);
+            sum.force += f;
+            sum.moment += glm::cross(glm::dvec3(c) + 0.5 + 0.5 * glm::dvec3(n) - grid.centre, f);
+        }
+    });
+    return sum;
+}
+
+/// Jacobi sweeps of (1 - k laplacian) u = u* from u*; the sphere's velocity stays, walls are mirrors.
+inline std::vector<glm::dvec3> diffused(const VoxelGrid& grid, const std::vector<glm::dvec3>& star, double k,
+                                        int sweeps) {
+    std::vector<glm::dvec3> u = star, next = star;
+    for (int s = 0; s < sweeps; ++s) {
+        grid.for_each_cell([&](const glm::ivec3& c) {
+            if (grid.solid(c)) return;
+            glm::dvec3 sum(0.0);
+            for (const glm::ivec3& e : kSixWays)
+                sum += grid.in_tank(c + e) ? u[grid.index(c + e)]
+                                           : u[grid.index(c)] * (1.0 - 2.0 * glm::dvec3(glm::abs(e)));
+            next[grid.index(c)] = (star[grid.index(c)] + k * sum) / (1.0 + 6.0 * k);
+        });
+        u.swap(next);
+    }
+    return u;
+}
 
 }  // namespace eddy::gles

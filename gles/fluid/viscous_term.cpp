@@ -1,0 +1,154 @@
+#include "gles/fluid/viscous_term.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gles/fluid/pressure.h"
+
+namespace eddy::gles {
+namespace {
+
+constexpr float kLeastLambda = 0.125f;  // below it two sweeps leave nothing for a coarser grid to do
+constexpr int kCoarsestSweeps = 4;
+
+/// Weights of n sweeps. The eigenvalues of D^-1 A lie around 1, between 1 / (1 + 6 lambda) and twice 1 less that;
+/// they damp those down to `low`.
+std::vector<float> weights(int n, float lambda, double low) {
+    const double least = 1.0 / (1.0 + 6.0 * static_cast<double>(lambda));
+    return chebyshev_weights(n, std::max(low, least), 2.0 - least);
+}
+
+Box faces_of(const Box& cells) {
+    return {cells.lo, cells.hi + 1};
+}
+
+}  // namespace
+
+float ViscousTerm::Equation::on(std::size_t level) const {
+    return lambda * std::exp2(-2.0f * static_cast<float>(level));
+}
+
+ViscousTerm::ViscousTerm(Gpu& gpu, const FluidSetup& setup, const Walls& walls) : gpu_(&gpu), setup_(&setup) {
+    const std::vector<glm::ivec3> grids = multigrid_levels(setup.cells);
+    for (const glm::ivec3& n : grids) levels_.push_back({n, {}, {}, {}, {}, {}, {}, {}, {}});
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        Level& level = levels_[l];
+        const AtlasLayout here = Faces::layout(level.cells);
+        if (!setup.bodies.empty()) {
+            level.distances.emplace(gpu, level.cells, Format::RGBA32F);
+            level.draw_distances.emplace(
+                gpu, fmt::format("distances {}", l), "gles/body/distances.frag", here,
+                Variant{.defines = {{"SCALE", fmt::format("{:.1f}", std::exp2(static_cast<double>(l)))}},
+                        .declarations = shape_declarations(setup.bodies)});
+        }
+        level.smooth.emplace(make(gpu, "viscous smooth", "gles/fluid/viscous_smooth.frag", l, {}, walls));
+        if (l > 0)
+            level.first_smooth.emplace(make(gpu, "viscous smooth from zero", "gles/fluid/viscous_smooth.frag",
+                                            l, {.defines = {{"FROM_ZERO", ""}}}, walls));
+        if (l > 0)
+            level.restrict_to.emplace(
+                gpu, fmt::format("viscous restrict {}", l), "gles/fluid/viscous_restrict.frag", here,
+                Variant{.layouts = {{"FACES", here}, {"FINE", Faces::layout(levels_[l - 1].cells)}}});
+        if (l + 1 == levels_.size()) break;
+        level.residual.emplace(
+            make(gpu, "viscous residual", "gles/fluid/viscous_residual.frag", l, {}, walls));
+        level.prolong.emplace(make(gpu, "viscous prolong", "gles/fluid/viscous_prolong.frag", l,
+                                   {.layouts = {{"COARSE", Faces::layout(grids[l + 1])}}}, walls));
+    }
+}
+
+ViscousTerm::Split ViscousTerm::make(Gpu& gpu, const char* name, const char* shader, std::size_t l,
+                                     Variant variant, const Walls& walls) const {
+    const glm::ivec3 n = levels_[l].cells;
+    variant.layouts.emplace_back("FACES", Faces::layout(n));
+    variant.defines.emplace_back("CELLS", glsl(n));
+    if (l > 0) variant.defines.emplace_back("CORRECTION", "");
+    walls.declare(variant, glm::vec3(setup_->cells) / std::exp2(static_cast<float>(l)) - glm::vec3(n - 1));
+    Variant cut = variant;
+    cut.defines.emplace_back("CUT", "");
+    cut.declarations += shape_declarations(setup_->bodies);
+    Split split{Pass(gpu, fmt::format("{} {}", name, l), shader, Faces::layout(n), variant), {}};
+    if (!setup_->bodies.empty())
+        split.cut.emplace(gpu, fmt::format("{} {} cut", name, l), shader, Faces::layout(n), cut);
+    return split;
+}
+
+void ViscousTerm::place(const BodyUniforms& bodies, const std::vector<Box>& boxes) {
+    if (setup_->bodies.empty()) return;
+    std::vector<Box> here = boxes, before = before_;
+    for (Level& level : levels_) {
+        level.boxes.clear();
+        for (const Box& box : here) level.boxes.push_back(faces_of(box));
+        std::vector<Box> touched = level.boxes;
+        for (const Box& box : before) touched.push_back(faces_of(box));
+        level.draw_distances->draw(bodies.inputs(), bodies.uniforms(), {&level.distances->texture()},
+                                   placed_ ? Region(touched) : Region::everything());
+        for (Box& box : here) box = box.coarsen().grow(1).intersect({glm::ivec3(0), level.cells});
+        for (Box& box : before) box = box.coarsen().grow(1).intersect({glm::ivec3(0), level.cells});
+    }
+    before_ = boxes;
+    placed_ = true;
+}
+
+void ViscousTerm::draw(Split& pass, std::size_t l, std::vector<Input> inputs, std::vector<Uniform> uniforms,
+                       const Equation& equation, const Texture& out) {
+    uniforms.insert(uniforms.end(), equation.uniforms.begin(), equation.uniforms.end());
+    uniforms.push_back({"lambda", equation.on(l)});
+    pass.plain.draw(inputs, uniforms, {&out});
+    if (!pass.cut) return;
+    inputs.push_back({"distances", &levels_[l].distances->texture()});
+    pass.cut->draw(inputs, uniforms, {&out}, Region(levels_[l].boxes));
+}
+
+Field<Faces> ViscousTerm::smooth(std::size_t l, const Field<Faces>* u, const Field<Faces>& rhs, float omega,
+                                 const Equation& equation) {
+    Field<Faces> next(*gpu_, levels_[l].cells, Format::RGBA32F);
+    Split& sweep = u ? *levels_[l].smooth : *levels_[l].first_smooth;
+    std::vector<Input> inputs{{"rhs", &rhs.texture()}};
+    if (u) inputs.push_back({"velocity", &u->texture()});
+    draw(sweep, l, inputs, {{"omega", omega}}, equation, next.texture());
+    return next;
+}
+
+Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, const Field<Faces>& rhs,
+                                const Equation& equation) {
+    Level& level = levels_[l];
+    const bool coarsest = l + 1 == equation.levels;
+    const float lambda = equation.on(l);
+    // Before and after the coarser grids: what they cannot hold. On the coarsest: everything.
+    const std::vector<float> omegas =
+        coarsest ? weights(kCoarsestSweeps, lambda, 0.1) : weights(2, lambda, 1.0 / 3.0);
+    Field<Faces> u = smooth(l, guess, rhs, omegas[0], equation);
+    for (std::size_t i = 1; i < omegas.size(); ++i) u = smooth(l, &u, rhs, omegas[i], equation);
+    if (coarsest) return u;
+
+    Field<Faces> residual(*gpu_, level.cells, Format::RGBA32F);
+    draw(*level.residual, l, {{"velocity", &u.texture()}, {"rhs", &rhs.texture()}}, {}, equation,
+         residual.texture());
+    Level& coarse = levels_[l + 1];
+    Field<Faces> rhs_coarse(*gpu_, coarse.cells, Format::RGBA32F);
+    coarse.restrict_to->draw({{"residual", &residual.texture()}}, {}, {&rhs_coarse.texture()});
+    const Field<Faces> correction = cycle(l + 1, nullptr, rhs_coarse, equation);
+    Field<Faces> corrected(*gpu_, level.cells, Format::RGBA32F);
+    draw(*level.prolong, l, {{"velocity", &u.texture()}, {"correction", &correction.texture()}}, {}, equation,
+         corrected.texture());
+    u = std::move(corrected);
+    for (float omega : omegas) u = smooth(l, &u, rhs, omega, equation);
+    return u;
+}
+
+Field<Faces> ViscousTerm::diffuse(const Field<Faces>& guess, const Field<Faces>& u_star, double dt_s,
+                                  int cycles, const BodyUniforms& bodies, const Uniform& wall_time) {
+    const double nu = setup_->viscosity_pa_s / setup_->density_kg_m3;
+    Equation equation{static_cast<float>(nu * dt_s / (setup_->cell_m * setup_->cell_m)), 1,
+                      bodies.uniforms()};
+    equation.uniforms.push_back(wall_time);
+    while (equation.levels < levels_.size() && equation.on(equation.levels) > kLeastLambda) ++equation.levels;
+    Field<Faces> u = cycle(0, &guess, u_star, equation);
+    for (int i = 1; i < cycles; ++i) u = cycle(0, &u, u_star, equation);
+    return u;
+}
+
+}  // namespace eddy::gles

@@ -1,0 +1,69 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "gles/body/shapes.h"
+#include "gles/field.h"
+#include "gles/fluid/walls.h"
+#include "gles/pass.h"
+
+namespace eddy::gles {
+
+/// Solves   u - nu dt Laplacian(u) = u*   for the three velocity components together, by multigrid V-cycles:
+/// stable and accurate whatever nu dt / h^2 is. The fluid sticks to bodies, wherever their surface cuts the
+/// grid, and to walls that say so.
+///
+/// A component's coarse faces are every second fine one along its own axis; the equation is written anew on
+/// each grid, for the grid's own distances to the bodies. Grids so coarse that neighbours hardly exchange
+/// momentum in a step (nu dt / h^2 < 1/8) are left out.
+class ViscousTerm {
+  public:
+    ViscousTerm(Gpu& gpu, const FluidSetup& setup, const Walls& walls);
+
+    /// Draws the distances to the bodies where they are now; `boxes` hold each body and two cells around it.
+    void place(const BodyUniforms& bodies, const std::vector<Box>& boxes);
+    /// u after `cycles` V-cycles from a guess; u* also holds the velocities on walls and in bodies.
+    Field<Faces> diffuse(const Field<Faces>& guess, const Field<Faces>& u_star, double dt_s, int cycles,
+                         const BodyUniforms& bodies, const Uniform& wall_time);
+    /// Signed distance of each face to the nearest body [cells]; far away some value above 1.
+    const Field<Faces>& distances() const { return *levels_[0].distances; }
+
+  private:
+    /// A pass for the whole grid, and the one that knows of bodies for their boxes over it.
+    struct Split {
+        Pass plain;
+        std::optional<Pass> cut;
+    };
+    struct Level {
+        glm::ivec3 cells;
+        std::optional<Field<Faces>> distances;
+        std::optional<Pass> draw_distances;
+        std::optional<Split> first_smooth, smooth, residual, prolong;
+        std::optional<Pass> restrict_to;  ///< this level, from the finer one
+        std::vector<Box> boxes;
+    };
+    struct Equation {
+        float lambda;  ///< nu dt / h^2 on the finest grid
+        float on(std::size_t level) const;
+        std::size_t levels;
+        std::vector<Uniform> uniforms;
+    };
+
+    Split make(Gpu& gpu, const char* name, const char* shader, std::size_t l, Variant variant,
+               const Walls& walls) const;
+    void draw(Split& pass, std::size_t l, std::vector<Input> inputs, std::vector<Uniform> uniforms,
+              const Equation& equation, const Texture& out);
+    /// One sweep; u null: from zero.
+    Field<Faces> smooth(std::size_t l, const Field<Faces>* u, const Field<Faces>& rhs, float omega,
+                        const Equation& equation);
+    Field<Faces> cycle(std::size_t l, const Field<Faces>* u, const Field<Faces>& rhs,
+                       const Equation& equation);
+
+    Gpu* gpu_;
+    const FluidSetup* setup_;
+    std::vector<Level> levels_;
+    std::vector<Box> before_;
+    bool placed_ = false;
+};
+
+}  // namespace eddy::gles

@@ -1,0 +1,82 @@
+#include <cmath>
+#include <numbers>
+
+#include "tests/physics/tank.h"
+
+namespace eddy::gles {
+namespace {
+
+using Stokes = GlTest;
+
+/// Creeping flow around a sphere in a cube whose walls the fluid sticks to, radius one fifth of the edge: validation
+/// cases B3 and B4. The sphere moves or turns at its place (the displacement is nothing beside its radius) until the
+/// flow is steady, in steps far longer than the grid's own diffusion time.
+struct Creeping {
+    int n;
+    glm::dvec3 offset{0.0};
+
+    double radius() const { return 0.2 * n; }
+    Load steady(Gpu& gpu, const glm::dvec3& velocity, const glm::dvec3& spin, int steps = 30) const {
+        FluidSetup s = unit_tank(glm::ivec3(n), radius(), Advection::SemiLagrangian, 3);
+        s.viscosity_pa_s = 1.0;
+        s.solver.viscous_cycles = 2;
+        for (WallSetup& wall : s.walls) wall.kind = WallKind::NoSlip;
+        const std::unique_ptr<Fluid> fluid = make_fluid(gpu, s);
+        const BodyState body{
+            .centre_m = glm::dvec3(0.5 * n) + offset, .velocity_m_s = velocity, .spin_rad_s = spin};
+        for (int i = 0; i < steps; ++i) fluid->step(0.02 * n * n, {body}, i + 1 == steps);
+        StepResult last = fluid->wait_result();
+        while (last.step < steps) last = fluid->wait_result();
+        return last.loads[0];
+    }
+    /// Drag over that in an unbounded fluid, 6 pi mu a U.
+    double drag_factor(Gpu& gpu) const {
+        constexpr double kSpeed = 1e-4;
+        return -steady(gpu, {kSpeed, 0.0, 0.0}, glm::dvec3(0.0)).force_n.x /
+               (6.0 * std::numbers::pi * radius() * kSpeed);
+    }
+    /// Torque over 8 pi mu a^3 Omega.
+    double torque_factor(Gpu& gpu) const {
+        constexpr double kSpin = 1e-5;
+        return -steady(gpu, glm::dvec3(0.0), {0.0, kSpin, 0.0}).torque_nm.y /
+               (8.0 * std::numbers::pi * std::pow(radius(), 3) * kSpin);
+    }
+};
+
+// By the method of fundamental solutions, for a sphere in the middle.
+constexpr double kDrag = 3.12346, kTorque = 1.04749;
+
+TEST_F(Stokes, TheDragOfASphereInACubeIsWithinThreePercent) {
+    for (const double offset : {0.0, 0.31}) {
+        const double k = Creeping{32, glm::dvec3(offset, 0.7 * offset, 0.4 * offset)}.drag_factor(gpu);
+        record("drag_over_exact", k / kDrag);
+        EXPECT_NEAR(k, kDrag, 0.03 * kDrag) << "offset " << offset;
+    }
+}
+
+TEST_F(Stokes, TheTorqueOnATurningSphereInACubeIsWithinThreePercent) {
+    const double k = Creeping{32, {0.31, 0.22, 0.12}}.torque_factor(gpu);
+    record("torque_over_exact", k / kTorque);
+    EXPECT_NEAR(k, kTorque, 0.03 * kTorque);
+}
+
+TEST_F(Stokes, DragIsProportionalToVelocityAndReversesWithIt) {
+    const Creeping creeping{20, {0.2, 0.1, 0.3}};
+    const glm::dvec3 u(1e-4, 0.0, 0.0);
+    const double once = creeping.steady(gpu, u, glm::dvec3(0.0), 8).force_n.x;
+    EXPECT_NEAR(creeping.steady(gpu, 2.0 * u, glm::dvec3(0.0), 8).force_n.x / once, 2.0, 1e-3);
+    EXPECT_NEAR(creeping.steady(gpu, -u, glm::dvec3(0.0), 8).force_n.x / once, -1.0, 1e-4);
+}
+
+TEST_F(Stokes, AnOffCentreSphereFeelsReciprocalForceAndTorque) {
+    // Lorentz' reciprocal theorem, B8.13: the torque about y from moving along z is the force along z from turning about y.
+    const Creeping creeping{32, {5.0, 0.0, 0.0}};
+    const double torque = creeping.steady(gpu, {0.0, 0.0, 1e-4}, glm::dvec3(0.0)).torque_nm.y / 1e-4;
+    const double force = creeping.steady(gpu, glm::dvec3(0.0), {0.0, 1e-5, 0.0}).force_n.z / 1e-5;
+    record("torque_from_translation", torque);
+    record("force_from_rotation", force);
+    EXPECT_NEAR(torque, force, 0.03 * std::max(std::abs(torque), std::abs(force)));
+}
+
+}  // namespace
+}  // namespace eddy::gles
