@@ -37,6 +37,11 @@ gles::SolverSetup solver_setup(const Scene::Solver& solver) {
     return s;
 }
 
+gles::VectorFormula glsl(const FormulaVector& v, std::string& all_glsl) {
+    all_glsl += v.glsl();
+    return {{v.x.glsl(), v.y.glsl(), v.z.glsl()}};
+}
+
 gles::WallSetup wall_setup(const Scene::Wall& wall, std::string& all_glsl) {
     gles::WallSetup w;
     switch (wall.kind) {
@@ -53,11 +58,7 @@ gles::WallSetup wall_setup(const Scene::Wall& wall, std::string& all_glsl) {
             w.kind = gles::WallKind::Open;
             break;
     }
-    if (wall.velocity_m_s) {
-        const FormulaVector& v = *wall.velocity_m_s;
-        w.velocity_m_s.glsl = {v.x.glsl(), v.y.glsl(), v.z.glsl()};
-        all_glsl += v.glsl();
-    }
+    if (wall.velocity_m_s) w.velocity_m_s = glsl(*wall.velocity_m_s, all_glsl);
     return w;
 }
 
@@ -110,11 +111,19 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
     s.walls = {wall_setup(w.x_low, all_glsl), wall_setup(w.x_high, all_glsl),
                wall_setup(w.y_low, all_glsl), wall_setup(w.y_high, all_glsl),
                wall_setup(w.z_low, all_glsl), wall_setup(w.z_high, all_glsl)};
+    if (scene.forcing) s.acceleration_m_s2 = glsl(scene.forcing->acceleration_m_s2, all_glsl);
     s.formula_helpers = formula_helpers(all_glsl);
     s.velocity_at_start = [u = scene.initial.velocity_m_s](const glm::dvec3& x_m) {
         return u.evaluate(x_m, 0.0);
     };
-    if (scene.smoke) s.smoke = gles::SmokeSetup{scene.smoke->dissipation_1_s};
+    if (scene.smoke) {
+        gles::SmokeSetup& smoke = s.smoke.emplace();
+        smoke.dissipation_1_s = scene.smoke->dissipation_1_s;
+        smoke.weight = scene.smoke->weight;
+        smoke.at_start = [density = scene.smoke->initial](const glm::dvec3& x_m) {
+            return density.evaluate(x_m.x, x_m.y, x_m.z, 0.0);
+        };
+    }
     for (const Scene::Source& source : scene.sources) {
         gles::SourceSetup& to = s.sources.emplace_back();
         to.centre_m = source.centre_m;

@@ -45,6 +45,12 @@ std::vector<glm::vec4> pack_vectors(const std::vector<glm::vec3>& values, const 
     return texels;
 }
 
+std::vector<float> pack_scalars(const std::vector<float>& values, const AtlasLayout& layout) {
+    std::vector<float> texels(texel_count(layout), 0.0f);
+    for_each_texel(layout, [&](std::size_t i, std::size_t t) { texels[t] = values[i]; });
+    return texels;
+}
+
 std::vector<float> unpack_scalars(const std::vector<glm::vec4>& texels, const AtlasLayout& layout) {
     std::vector<float> values(static_cast<std::size_t>(layout.size.x * layout.size.y * layout.size.z));
     for_each_texel(layout, [&](std::size_t i, std::size_t t) { values[i] = texels[t].x; });

@@ -12,6 +12,8 @@ namespace eddy::gles {
 /// One texel for each index of the layout.
 std::vector<glm::vec3> unpack_vectors(const std::vector<glm::vec4>& texels, const AtlasLayout& layout);
 std::vector<glm::vec4> pack_vectors(const std::vector<glm::vec3>& values, const AtlasLayout& layout);
+/// For textures of one channel.
+std::vector<float> pack_scalars(const std::vector<float>& values, const AtlasLayout& layout);
 std::vector<float> unpack_scalars(const std::vector<glm::vec4>& texels, const AtlasLayout& layout);
 /// Four consecutive z in one texel; `n` is the grid without padding.
 std::vector<float> unpack_four(const std::vector<glm::vec4>& texels, const AtlasLayout& layout,

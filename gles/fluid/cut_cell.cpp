@@ -14,6 +14,32 @@ namespace {
 /// impulse, and comes out right (2 cycles alone: 2 % low; 5: within 0.02 % of the converged one).
 constexpr int kColdCycles = 3;
 
+bool has_weight(const FluidSetup& setup) {
+    return setup.smoke && setup.smoke->weight != 0.0;
+}
+
+/// The body forces this scene has.
+Variant force_variant(const FluidSetup& setup) {
+    Variant v;
+    if (has_weight(setup)) {
+        v.layouts.emplace_back("SMOKE_CELLS", Cells::layout(setup.cells));
+        v.defines.emplace_back("WEIGHT", "");
+    }
+    if (setup.acceleration_m_s2) {
+        const auto& f = setup.acceleration_m_s2->glsl;
+        v.defines.emplace_back("FORCING", "");
+        v.declarations = setup.formula_helpers +
+                         fmt::format(
+                             "uniform float time;  // [s]\n"
+                             "vec3 forcing(vec3 cells) {{\n"
+                             "    float x = {0:.9e} * cells.x, y = {0:.9e} * cells.y, z = {0:.9e} * cells.z, "
+                             "t = time;\n"
+                             "    return vec3({1}, {2}, {3});\n}}\n",
+                             setup.cell_m, f[0], f[1], f[2]);
+    }
+    return v;
+}
+
 /// The three layers of face texels at the upper walls.
 Region upper_walls(const glm::ivec3& n) {
     return Region(
@@ -82,8 +108,9 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
         if (source.velocity_m_s && !drive_)
             drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", Faces::layout(setup_.cells),
                            Variant{});
-    if (setup_.gravity_m_s2 != glm::dvec3(0.0))
-        body_forces_.emplace(gpu, "body forces", "gles/fluid/body_forces.frag", Faces::layout(setup_.cells));
+    if (setup_.gravity_m_s2 != glm::dvec3(0.0) || setup_.acceleration_m_s2)
+        body_forces_.emplace(gpu, "body forces", "gles/fluid/body_forces.frag", Faces::layout(setup_.cells),
+                             force_variant(setup_));
     reset();
 }
 
@@ -110,13 +137,25 @@ std::vector<glm::vec3> CutCellFluid::velocity_at_start() const {
     return u;
 }
 
+void CutCellFluid::upload_smoke_at_start() {
+    const glm::ivec3 n = setup_.cells;
+    std::vector<float> s;
+    for (int z = 0; z < n.z; ++z)
+        for (int y = 0; y < n.y; ++y)
+            for (int x = 0; x < n.x; ++x)
+                s.push_back(setup_.smoke->at_start ? static_cast<float>(setup_.smoke->at_start(
+                                                         setup_.cell_m * (glm::dvec3(x, y, z) + 0.5)))
+                                                   : 0.0f);
+    smoke_->texture().upload(pack_scalars(s, smoke_->layout()).data());
+}
+
 void CutCellFluid::reset() {
     const glm::ivec3 n = setup_.cells;
     set_velocity(velocity_at_start());
     clear(phi_.texture());
     if (setup_.smoke) {
         smoke_ = Field<Cells>(gpu_, n, Format::R32F);
-        clear(smoke_->texture());
+        upload_smoke_at_start();
     }
     results_.forget();
     before_.clear();
@@ -145,13 +184,13 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
         Gpu::Stage stage(gpu_, "advect velocity");
         u = drive_sources(advect_(u_, dt_s, walls_.time(time_s_)));  // u* = u(x - dt u)
     }
-    if (body_forces_) {
-        Gpu::Stage stage(gpu_, "body forces");
-        u = add_body_forces(std::move(u));  // u* += dt g
-    }
     if (smoke_) {
         Gpu::Stage stage(gpu_, "advect smoke");
         smoke_ = (*advect_smoke_)(*smoke_, u_, time_s_, dt_s);  // s = s(x - dt u) + dt q
+    }
+    if (body_forces_) {
+        Gpu::Stage stage(gpu_, "body forces");
+        u = add_body_forces(u);  // u* += dt (g (1 + w s) + f)
     }
     if (fractions_) {
         Gpu::Stage stage(gpu_, "voxelise");
@@ -200,10 +239,17 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     }
 }
 
-Field<Faces> CutCellFluid::add_body_forces(Field<Faces> u) {
+Field<Faces> CutCellFluid::add_body_forces(const Field<Faces>& u) {
     Field<Faces> next(gpu_, setup_.cells, Format::RGBA32F);
-    body_forces_->draw({{"velocity", &u.texture()}}, {{"dt_g", glm::vec3(dt_s_ * setup_.gravity_m_s2)}},
-                       {&next.texture()});
+    std::vector<Input> inputs{{"velocity", &u.texture()}};
+    std::vector<Uniform> uniforms{{"dt", static_cast<float>(dt_s_)},
+                                  {"gravity", glm::vec3(setup_.gravity_m_s2)},
+                                  {"time", static_cast<float>(time_s_ + dt_s_)}};
+    if (has_weight(setup_)) {
+        inputs.push_back({"smoke", &smoke_->texture()});
+        uniforms.push_back({"weight", static_cast<float>(setup_.smoke->weight)});
+    }
+    body_forces_->draw(inputs, uniforms, {&next.texture()});
     return next;
 }
 

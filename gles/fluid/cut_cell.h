@@ -39,9 +39,10 @@ class CutCellFluid final : public Fluid {
     Variant grid_variant(bool cut) const;
 
     std::vector<glm::vec3> velocity_at_start() const;
+    void upload_smoke_at_start();
     std::vector<BodyMotion> motions(const std::vector<BodyState>& bodies) const;
     Field<Faces> drive_sources(Field<Faces> u);
-    Field<Faces> add_body_forces(Field<Faces> u);
+    Field<Faces> add_body_forces(const Field<Faces>& u);
     /// What passes near solids read besides their own.
     void add_solids(std::vector<Input>& inputs, std::vector<Uniform>& uniforms) const;
     /// The viscous step, with the last step's pressure in it.

@@ -87,6 +87,9 @@ struct SourceSetup {
 
 struct SmokeSetup {
     double dissipation_1_s = 0.0;  ///< exponential decay rate of the density
+    double weight = 0.0;           ///< relative density excess of fluid with smoke of density 1 (Boussinesq)
+    /// Density at the start at a place of the tank [m]; empty: none.
+    std::function<double(const glm::dvec3&)> at_start{};
 };
 
 enum class Method {
@@ -121,6 +124,7 @@ struct FluidSetup {
     double viscosity_pa_s = 0.0;  ///< mu, dynamic; 0: no viscous term anywhere
     glm::dvec3 gravity_m_s2{0.0};
     std::array<WallSetup, 6> walls{};  ///< x low, x high, y low, y high, z low, z high
+    std::optional<VectorFormula> acceleration_m_s2{};  ///< a force on all of the fluid, per mass
     std::string formula_helpers{};     ///< GLSL functions that the formulas call
     /// Velocity at the start at a place of the tank [m]; empty: at rest.
     std::function<glm::dvec3(const glm::dvec3&)> velocity_at_start{};

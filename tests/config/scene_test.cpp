@@ -218,7 +218,8 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedScene, testing::ValuesIn(shipped_scenes()),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(ShippedScenes, AreTheOnesTheExhibitAndTheAccuracyTestsName) {
-    const std::vector<std::string_view> names = {"added_mass", "bench", "jet", "rest", "slide", "stir"};
+    const std::vector<std::string_view> names = {"added_mass", "archimedes", "bench", "cavity", "jet",
+                                                 "rest",       "slide",      "stir",  "stokes"};
     EXPECT_EQ(shipped_scenes(), names);
 }
 
