@@ -97,6 +97,7 @@ class FlowCheck {
         not_yang("solver.time_order", s.time_order != 1, "it is of first order; remove this key");
         const char* another = "use preset = \"fast\" or \"precise\"";
         not_yang("fluid.gravity_m_s2", scene_.fluid.gravity_m_s2 != glm::dvec3(0.0), another);
+        not_yang("vorticity_confinement", scene_.vorticity_confinement.has_value(), another);
         not_yang("forcing", scene_.forcing.has_value(), another);
         not_yang("smoke.initial", scene_.smoke && scene_.smoke->initial != Formula(), another);
         const Scene::Walls& w = scene_.tank.walls;

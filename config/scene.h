@@ -68,7 +68,7 @@ struct Scene {
     };
 
     struct VorticityConfinement {
-        double strength = 0.0;
+        double strength_1_s = 0.0;
         bool operator==(const VorticityConfinement&) const = default;
     };
 

@@ -13,7 +13,6 @@ void refuse_what_is_not_in_this_version(const Scene& scene, Findings& findings) 
         if (used) rules.blame(key, "not in this version of eddy");
     };
     not_in_this_version("temperature", scene.temperature.has_value());
-    not_in_this_version("vorticity_confinement", scene.vorticity_confinement.has_value());
     not_in_this_version("imposed", scene.imposed.has_value());
     not_in_this_version("initial.velocity_npy", !scene.initial.velocity_npy.empty());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

@@ -63,7 +63,7 @@ void describe(Visitor& v, Scene::Smoke& s) {
 
 template <class Visitor>
 void describe(Visitor& v, Scene::VorticityConfinement& c) {
-    v.required("strength", c.strength,
+    v.required("strength_1_s", c.strength_1_s,
                "0 is off; vortices fed in proportion to it and to the width of a cell", between(0, 1e3));
 }
 

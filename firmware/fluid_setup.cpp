@@ -111,6 +111,7 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
     s.walls = {wall_setup(w.x_low, all_glsl), wall_setup(w.x_high, all_glsl),
                wall_setup(w.y_low, all_glsl), wall_setup(w.y_high, all_glsl),
                wall_setup(w.z_low, all_glsl), wall_setup(w.z_high, all_glsl)};
+    if (scene.vorticity_confinement) s.confinement_1_s = scene.vorticity_confinement->strength_1_s;
     if (scene.forcing) s.acceleration_m_s2 = glsl(scene.forcing->acceleration_m_s2, all_glsl);
     s.formula_helpers = formula_helpers(all_glsl);
     s.velocity_at_start = [u = scene.initial.velocity_m_s](const glm::dvec3& x_m) {

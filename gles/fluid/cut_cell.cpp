@@ -21,10 +21,9 @@ bool has_weight(const FluidSetup& setup) {
 /// The body forces this scene has.
 Variant force_variant(const FluidSetup& setup) {
     Variant v;
-    if (has_weight(setup)) {
-        v.layouts.emplace_back("SMOKE_CELLS", Cells::layout(setup.cells));
-        v.defines.emplace_back("WEIGHT", "");
-    }
+    v.layouts.emplace_back("CELL_CENTRES", Cells::layout(setup.cells));
+    if (has_weight(setup)) v.defines.emplace_back("WEIGHT", "");
+    if (setup.confinement_1_s > 0.0) v.defines.emplace_back("CONFINEMENT", "");
     if (setup.acceleration_m_s2) {
         const auto& f = setup.acceleration_m_s2->glsl;
         v.defines.emplace_back("FORCING", "");
@@ -108,9 +107,14 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
         if (source.velocity_m_s && !drive_)
             drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", Faces::layout(setup_.cells),
                            Variant{});
-    if (setup_.gravity_m_s2 != glm::dvec3(0.0) || setup_.acceleration_m_s2)
+    if (setup_.gravity_m_s2 != glm::dvec3(0.0) || setup_.acceleration_m_s2 || setup_.confinement_1_s > 0.0)
         body_forces_.emplace(gpu, "body forces", "gles/fluid/body_forces.frag", Faces::layout(setup_.cells),
                              force_variant(setup_));
+    if (setup_.confinement_1_s > 0.0) {
+        const AtlasLayout cells = Cells::layout(setup_.cells);
+        vorticity_.emplace(gpu, "vorticity", "gles/fluid/vorticity.frag", cells, grid_variant(false));
+        confinement_.emplace(gpu, "confinement", "gles/fluid/confinement.frag", cells);
+    }
     reset();
 }
 
@@ -249,7 +253,17 @@ Field<Faces> CutCellFluid::add_body_forces(const Field<Faces>& u) {
         inputs.push_back({"smoke", &smoke_->texture()});
         uniforms.push_back({"weight", static_cast<float>(setup_.smoke->weight)});
     }
-    body_forces_->draw(inputs, uniforms, {&next.texture()});
+    if (confinement_) {
+        Field<Cells> vorticity(gpu_, setup_.cells, Format::RGBA32F);
+        Field<Cells> swirl(gpu_, setup_.cells, Format::RGBA32F);
+        vorticity_->draw({{"velocity", &u.texture()}}, {}, {&vorticity.texture()});
+        confinement_->draw({{"vorticity", &vorticity.texture()}},
+                           {{"strength", static_cast<float>(setup_.confinement_1_s)}}, {&swirl.texture()});
+        inputs.push_back({"swirl", &swirl.texture()});
+        body_forces_->draw(inputs, uniforms, {&next.texture()});
+    } else {
+        body_forces_->draw(inputs, uniforms, {&next.texture()});
+    }
     return next;
 }
 

@@ -75,7 +75,7 @@ class CutCellFluid final : public Fluid {
     Walls walls_;
     VelocityTransport advect_;
     std::optional<SmokeTransport> advect_smoke_;
-    std::optional<Pass> drive_, body_forces_;
+    std::optional<Pass> drive_, vorticity_, confinement_, body_forces_;
     std::optional<Fractions> fractions_;
     BodyUniforms body_uniforms_;
     Pass divergence_;

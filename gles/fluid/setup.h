@@ -125,6 +125,7 @@ struct FluidSetup {
     glm::dvec3 gravity_m_s2{0.0};
     std::array<WallSetup, 6> walls{};  ///< x low, x high, y low, y high, z low, z high
     std::optional<VectorFormula> acceleration_m_s2{};  ///< a force on all of the fluid, per mass
+    double confinement_1_s = 0.0;  ///< eps of vorticity confinement, f = eps h (N x w); 0: none
     std::string formula_helpers{};     ///< GLSL functions that the formulas call
     /// Velocity at the start at a place of the tank [m]; empty: at rest.
     std::function<glm::dvec3(const glm::dvec3&)> velocity_at_start{};

@@ -39,7 +39,7 @@ dissipation_1_s = 0.1
 weight = -0.5
 initial = "exp(-((x - 0.1)^2 + y^2) / 0.01)"
 [vorticity_confinement]
-strength = 0.3
+strength_1_s = 0.3
 [[source]]
 name = "wind"
 centre_m = [0.1, 0.1, 0.05]

@@ -141,7 +141,7 @@ TEST(ImposedRules, WhatPushesTheFlowIsRefused) {
     EXPECT_THAT(faults_of(imposed + kEarth), ElementsAre(StartsWith("s.toml:4:16: fluid.gravity_m_s2: ")));
     EXPECT_THAT(faults_of(imposed + "[forcing]\nacceleration_m_s2 = [1, 0, 0]\n"),
                 ElementsAre(StartsWith("s.toml:3:1: forcing: ")));
-    EXPECT_THAT(faults_of(imposed + "[vorticity_confinement]\nstrength = 1\n"),
+    EXPECT_THAT(faults_of(imposed + "[vorticity_confinement]\nstrength_1_s = 1\n"),
                 ElementsAre(StartsWith("s.toml:3:1: vorticity_confinement: ")));
     EXPECT_THAT(faults_of(imposed + "[initial]\nvelocity_m_s = [1, 0, 0]\n"),
                 ElementsAre(StartsWith("s.toml:4:16: initial.velocity_m_s: ")));

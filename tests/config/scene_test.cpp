@@ -46,7 +46,7 @@ TEST(Scene, EveryKeyReachesItsField) {
     EXPECT_EQ(s.smoke.value().dissipation_1_s, 0.1);
     EXPECT_EQ(s.smoke.value().weight, -0.5);
     EXPECT_EQ(s.smoke.value().initial.evaluate(0.1, 0, 0, 0), 1.0);
-    EXPECT_EQ(s.vorticity_confinement.value().strength, 0.3);
+    EXPECT_EQ(s.vorticity_confinement.value().strength_1_s, 0.3);
     EXPECT_EQ(s.forcing.value().acceleration_m_s2.z, Formula(1e-3));
     EXPECT_EQ(s.initial.velocity_m_s.y, Formula(-0.1));
     ASSERT_EQ(s.sources.size(), 2u);

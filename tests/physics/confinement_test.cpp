@@ -1,0 +1,48 @@
+#include <cmath>
+
+#include "tests/physics/tank.h"
+
+namespace eddy::gles {
+namespace {
+
+using VorticityConfinement = GlTest;
+
+/// A Gaussian eddy about the z axis in the middle of a box, off-centre so that nothing cancels by symmetry.
+FluidSetup eddy_in_a_box(double strength) {
+    FluidSetup s = unit_tank({32, 32, 6}, 0.0, Advection::SemiLagrangian, 6);
+    s.confinement_1_s = strength;
+    s.velocity_at_start = [](const glm::dvec3& x) {
+        const double dx = x.x - 14.3, dy = x.y - 17.1, w = 0.2 * std::exp(-(dx * dx + dy * dy) / 18.0);
+        return glm::dvec3(-w * dy, w * dx, 0.0);
+    };
+    return s;
+}
+
+double energy_after(Gpu& gpu, double strength, int steps) {
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, eddy_in_a_box(strength));
+    double energy = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        fluid->step(0.5, {}, true);
+        energy = fluid->wait_result().diagnostics->kinetic_energy_j;
+    }
+    return energy;
+}
+
+TEST_F(VorticityConfinement, GivesBackWhatTheTransportSmoothsAway) {
+    // With it an eddy keeps more of its energy, and does not run away. Measured when the limit was set: 1.32 times as much.
+    const double without = energy_after(gpu, 0.0, 40), with = energy_after(gpu, 0.05, 40);
+    record("gain", with / without);
+    EXPECT_GT(with, 1.02 * without);
+    EXPECT_LT(with, 2.0 * without);
+}
+
+TEST_F(VorticityConfinement, DoesNothingToAFluidThatDoesNotTurn) {
+    FluidSetup s = unit_tank({16, 14, 12}, 3.0, Advection::SemiLagrangian, 6);
+    s.confinement_1_s = 1.0;
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, s);
+    fluid->step(0.5, {BodyState{.centre_m = {8.0, 7.0, 6.0}}}, false);
+    for (const glm::vec3& u : fluid->velocity()) EXPECT_EQ(u, glm::vec3(0.0f));
+}
+
+}  // namespace
+}  // namespace eddy::gles
