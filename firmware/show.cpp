@@ -73,6 +73,8 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
 
 void Show::reset() {
     fluid_->reset();
+    time_s_ = 0.0;
+    states_ = motions_.at(0.0, scene_.solver.dt_s);
     computed_for_.clear();
     hand_known_ = false;
 }

@@ -32,7 +32,7 @@ class Show {
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
     void publish(bool wait);
 
-    /// The fluid back to its start, at rest; what was under way is forgotten.
+    /// Fluid and prescribed bodies back to their start; what was under way is forgotten.
     void reset();
 
     const gles::Fluid& fluid() const { return *fluid_; }

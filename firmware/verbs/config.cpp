@@ -4,13 +4,16 @@
 #include "config/exhibit.h"
 #include "config/scene.h"
 #include "firmware/body_motion.h"
+#include "firmware/fluid_setup.h"
 #include "firmware/verbs/verbs.h"
 
 namespace eddy {
 
 int check_config(const std::string& file) {
     if (holds_a_scene(file)) {
-        BodyMotions{load_scene(is_scene_file(file) ? file : "./" + file).scene};
+        const Scene scene = load_scene(is_scene_file(file) ? file : "./" + file).scene;
+        BodyMotions{scene};  // reads the paths
+        fluid_setup(scene);  // reads the meshes
         fmt::print("{}: a good scene\n", file);
     } else {
         load_exhibit_file(file);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -100,16 +102,17 @@ int simulate(const SimulateOptions& options) {
     const LoadedScene loaded = load_scene(options.scene, options.set);
     const Scene& scene = loaded.scene;
     const BodyMotions motions(scene);
+    const gles::FluidSetup setup = fluid_setup(scene);
     const double dt = scene.solver.dt_s;
     const long steps = steps_of(options, scene);
     if (!options.out.empty() && !options.plan) prepare_folder("--out", options.out);
     const std::unique_ptr<Graphics> graphics = open_headless();
     if (options.plan) {
-        fmt::print("{}", plan_of(graphics->gpu, fluid_setup(scene), motions, dt));
+        fmt::print("{}", plan_of(graphics->gpu, setup, motions, dt));
         return 0;
     }
 
-    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(graphics->gpu, fluid_setup(scene));
+    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(graphics->gpu, setup);
     std::optional<Series> series;
     if (!options.out.empty()) {
         std::vector<std::string> names;
@@ -125,6 +128,12 @@ int simulate(const SimulateOptions& options) {
         const double t = static_cast<double>(n) * dt;
         fluid->step(dt, motions.at(t, dt), true);
         const gles::StepResult result = fluid->wait_result();
+        if (!std::isfinite(result.diagnostics->kinetic_energy_j))
+            throw std::runtime_error(
+                fmt::format("the flow has no finite value after step {} of {}: look for a formula without a "
+                            "value somewhere in the "
+                            "tank (1/x, sqrt of a negative number), or a scene that no flow can follow",
+                            n, steps));
         add_to(summary, result);
         if (series) series->add(t, result, milliseconds_since(step_start));
         progress.show(static_cast<double>(n), static_cast<double>(steps));

@@ -22,7 +22,7 @@ class Traction {
         float lambda;
     };
 
-    /// Writes, for body i, sum(phi grad(1-a)) to texel 2i of `target` and its moment to texel 2i + 1: in m/s
+    /// Writes, for body i, sum(phi grad(1-a)), friction added, to texel 2i of `target` and its moment to texel 2i + 1: in m/s
     /// cells^2 and m/s cells^3. Times rho h^3/dt and rho h^4/dt they are newtons and newton metres.
     void draw(const Field<Cells4>& phi, const FaceFractions& a, const BodyUniforms& uniforms,
               const std::vector<BodyState>& states, const std::vector<Box>& boxes, const Texture& target,

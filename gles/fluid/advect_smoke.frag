@@ -6,6 +6,7 @@
 // fetches 6
 #include "velocity.glsl"
 #include "sources.glsl"
+#include "beyond.glsl"
 
 uniform sampler2D velocity, smoke;
 uniform float dt_h;     // dt / h  [s/m]
@@ -16,5 +17,6 @@ out float result;
 void main() {
     ivec3 c = cell_here(TARGET);
     vec3 x = vec3(c) + 0.5;
-    result = remains * sample_linear(smoke, TARGET, x - dt_h * velocity_in_cell(velocity, c)).x + from_sources(x);
+    vec3 s = x - dt_h * velocity_in_cell(velocity, c);
+    result = remains * from_inside(s) * sample_linear(smoke, TARGET, s).x + from_sources(x);
 }

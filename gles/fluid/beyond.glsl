@@ -1,4 +1,4 @@
-// beyond.glsl     What the fluid brings from beyond the last row of samples before a wall
+// beyond.glsl     What the fluid brings from beyond the last row of samples before a wall, and from outside
 //
 // Positions are in texels of Faces: the component along an axis sits half a texel lower along it. Without FRICTION nothing
 // changes: sampling with clamping has zero gradient at a wall the fluid slides along.
@@ -20,3 +20,14 @@ float to_walls(float u, int component, vec3 s) {
     return u;
 }
 #endif
+
+// 0 where what is carried to here comes in through an inflow or an opening: clear fluid. s in texels of Cells.
+float from_inside(vec3 s) {
+#ifdef THROUGH
+    vec3 below = vec3(lessThan(s, vec3(0.0))) * min(OPEN_LOW + INFLOW_LOW, 1.0);
+    vec3 above = vec3(greaterThan(s, vec3(FACES.size - 1))) * min(OPEN_HIGH + INFLOW_HIGH, 1.0);
+    return all(equal(below + above, vec3(0.0))) ? 1.0 : 0.0;
+#else
+    return 1.0;
+#endif
+}

@@ -102,7 +102,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
     for (const BodySetup& body : setup_.bodies)
         volumes_m3_.push_back((body.inside_out ? -1.0 : 1.0) * mass_properties(body.shape).volume_m3);
     if (Results::measures(setup_)) traction_.emplace(gpu, setup_, Results::width(setup_));
-    if (setup_.smoke) advect_smoke_.emplace(gpu, setup_);
+    if (setup_.smoke) advect_smoke_.emplace(gpu, setup_, walls_);
     for (const SourceSetup& source : setup_.sources)
         if (source.velocity_m_s && !drive_)
             drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", Faces::layout(setup_.cells),
@@ -190,7 +190,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     }
     if (smoke_) {
         Gpu::Stage stage(gpu_, "advect smoke");
-        smoke_ = (*advect_smoke_)(*smoke_, u_, time_s_, dt_s);  // s = s(x - dt u) + dt q
+        smoke_ = (*advect_smoke_)(*smoke_, u_, time_s_, dt_s, walls_.time(time_s_));  // s = s(x - dt u) + dt q
     }
     if (body_forces_) {
         Gpu::Stage stage(gpu_, "body forces");

@@ -59,7 +59,7 @@ class CutCellFluid final : public Fluid {
 
     // --- state, and who writes it                                             unit       cells
     Gpu& gpu_;
-    Field<Faces> u_;                     // velocity, subtract_gradient          m/s       (nx+1, ny+1, nz+1)
+    Field<Faces> u_;                     // velocity, project                    m/s       (nx+1, ny+1, nz+1)
     Field<Cells4> phi_;                  // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
     Field<Cells4> increment_;            // of phi in a viscous step              m/s       (nx, ny, nz)
     Field<Faces> diffused_;              // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)

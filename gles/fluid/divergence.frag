@@ -79,4 +79,14 @@ void main() {
     low_z *= mix(vec4(open_low.z), vec4(1.0), vec4(greaterThan(z, vec4(0.0))));
     high_z *= mix(vec4(open_high.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(n.z))));
     b = (high_x - low_x + high_y - low_y + high_z - low_z) * vec4(lessThan(z, vec4(n.z)));
+#ifdef CUT
+    // A cell without an open face has no pressure to answer with. Beside a tank's wall a moving solid would seem to pile up.
+    lx *= c.x > 0 ? 1.0 : open_low.x;
+    hx *= c.x + 1 < n.x ? 1.0 : open_high.x;
+    ly *= c.y > 0 ? 1.0 : open_low.y;
+    hy *= c.y + 1 < n.y ? 1.0 : open_high.y;
+    lz *= mix(vec4(open_low.z), vec4(1.0), vec4(greaterThan(z, vec4(0.0))));
+    hz *= mix(vec4(open_high.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(n.z))));
+    b *= vec4(greaterThan(lx + hx + ly + hy + lz + hz, vec4(0.0)));
+#endif
 }

@@ -7,6 +7,7 @@
 #include "velocity.glsl"
 #include "maccormack.glsl"
 #include "sources.glsl"
+#include "beyond.glsl"
 
 uniform sampler2D velocity, smoke, forward;
 uniform float dt_h;     // dt / h  [s/m]
@@ -22,5 +23,5 @@ void main() {
     donors(smoke, TARGET, x - displacement, least, most);
     float back = sample_linear(forward, TARGET, x + displacement).x;
     float s = at(forward, TARGET, c).x + 0.5 * (at(smoke, TARGET, c).x - back);
-    result = remains * clamp(s, least.x, most.x) + from_sources(x);
+    result = remains * from_inside(x - displacement) * clamp(s, least.x, most.x) + from_sources(x);
 }

@@ -1,7 +1,7 @@
 // poisson.glsl     The pressure equation  sum_f a_f (phi_nb - phi) = b  over the six faces of a cell, four cells at once
 //
 // phi: velocity potential dt p / (rho h) [m/s], Cells4. Away from solids every a is 1; variant CUT reads them from Faces4.
-// Tank walls are closed: no term. Padding beyond the last layer takes no part. PHI is the layout of phi, CELLS its grid.
+// Tank walls are closed: no term; with THROUGH, openings have phi = 0 outside (walls.h). Padding beyond the last layer takes no part. PHI is the layout of phi, CELLS its grid.
 // Variant LAST_CELL (vec3): on the coarse grids of an odd grid the last cell of an axis is only partly inside; this is how
 // much. Faces along it are smaller by the same share, as the averaged fractions of variant CUT know by themselves.
 uniform sampler2D phi;

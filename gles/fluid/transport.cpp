@@ -44,12 +44,12 @@ Field<Faces> VelocityTransport::operator()(const Field<Faces>& u, double dt_s, c
     return corrected;
 }
 
-SmokeTransport::SmokeTransport(Gpu& gpu, const FluidSetup& setup)
-    : gpu_(&gpu),
-      setup_(setup),
-      forward_(gpu, "advect smoke", "gles/fluid/advect_smoke.frag", Cells::layout(setup.cells),
-               {.layouts = {{"FACES", Faces::layout(setup.cells)}}}) {
+SmokeTransport::SmokeTransport(Gpu& gpu, const FluidSetup& setup, const Walls& walls)
+    : gpu_(&gpu), setup_(setup) {
     Variant variant{.layouts = {{"FACES", Faces::layout(setup.cells)}}};
+    walls.declare(variant);
+    forward_.emplace(gpu, "advect smoke", "gles/fluid/advect_smoke.frag", Cells::layout(setup.cells),
+                     variant);
     const bool corrects = setup.solver.advection == Advection::MacCormack;
     const char* last_shader = corrects ? "gles/fluid/maccormack_smoke.frag" : "gles/fluid/advect_smoke.frag";
     if (corrects) correct_.emplace(gpu, "correct smoke", last_shader, Cells::layout(setup.cells), variant);
@@ -64,7 +64,7 @@ SmokeTransport::SmokeTransport(Gpu& gpu, const FluidSetup& setup)
 }
 
 Field<Cells> SmokeTransport::operator()(const Field<Cells>& smoke, const Field<Faces>& u, double time_s,
-                                        double dt_s) {
+                                        double dt_s, const Uniform& wall_time) {
     const Uniform dt_h{"dt_h", static_cast<float>(dt_s / setup_.cell_m)};
     Uniform remains{"remains", static_cast<float>(std::exp(-setup_.smoke->dissipation_1_s * dt_s))};
     std::vector<glm::vec3> gains;
@@ -75,22 +75,23 @@ Field<Cells> SmokeTransport::operator()(const Field<Cells>& smoke, const Field<F
     Field<Cells> next(*gpu_, smoke.cells(), Format::R32F);
     if (!correct_) {
         const std::vector<Input> inputs{{"velocity", &u.texture()}, {"smoke", &smoke.texture()}};
-        forward_.draw(inputs, {dt_h, remains}, {&next.texture()});
+        forward_->draw(inputs, {dt_h, remains, wall_time}, {&next.texture()});
         if (with_sources_)
-            with_sources_->draw(inputs,
-                                {dt_h, remains, {"source_ball", source_balls_}, {"source_gain", gains}},
-                                {&next.texture()}, Region(source_boxes_));
+            with_sources_->draw(
+                inputs, {dt_h, remains, wall_time, {"source_ball", source_balls_}, {"source_gain", gains}},
+                {&next.texture()}, Region(source_boxes_));
         return next;
     }
     Field<Cells> forward(*gpu_, smoke.cells(), Format::R32F);
-    forward_.draw({{"velocity", &u.texture()}, {"smoke", &smoke.texture()}}, {dt_h, {"remains", 1.0f}},
-                  {&forward.texture()});
+    forward_->draw({{"velocity", &u.texture()}, {"smoke", &smoke.texture()}},
+                   {dt_h, {"remains", 1.0f}, wall_time}, {&forward.texture()});
     const std::vector<Input> inputs{
         {"velocity", &u.texture()}, {"smoke", &smoke.texture()}, {"forward", &forward.texture()}};
-    correct_->draw(inputs, {dt_h, remains}, {&next.texture()});
+    correct_->draw(inputs, {dt_h, remains, wall_time}, {&next.texture()});
     if (with_sources_)
-        with_sources_->draw(inputs, {dt_h, remains, {"source_ball", source_balls_}, {"source_gain", gains}},
-                            {&next.texture()}, Region(source_boxes_));
+        with_sources_->draw(
+            inputs, {dt_h, remains, wall_time, {"source_ball", source_balls_}, {"source_gain", gains}},
+            {&next.texture()}, Region(source_boxes_));
     return next;
 }
 

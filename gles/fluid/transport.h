@@ -23,17 +23,17 @@ class VelocityTransport {
 /// Carries smoke with a velocity, lets it fade, and adds what the sources give.
 class SmokeTransport {
   public:
-    SmokeTransport(Gpu& gpu, const FluidSetup& setup);
+    SmokeTransport(Gpu& gpu, const FluidSetup& setup, const Walls& walls);
     /// `time_s`: when the step begins; decides which sources run.
-    Field<Cells> operator()(const Field<Cells>& smoke, const Field<Faces>& u, double time_s, double dt_s);
+    Field<Cells> operator()(const Field<Cells>& smoke, const Field<Faces>& u, double time_s, double dt_s,
+                            const Uniform& wall_time);
 
   private:
     Gpu* gpu_;
     FluidSetup setup_;
     std::vector<Box> source_boxes_;
     std::vector<glm::vec4> source_balls_;
-    Pass forward_;
-    std::optional<Pass> correct_;
+    std::optional<Pass> forward_, correct_;
     std::optional<Pass> with_sources_;  ///< the last pass again, over the sources
 };
 

@@ -57,7 +57,10 @@ void links(sampler2D velocity, ivec3 c, int axis, int sign, vec3 here, inout vec
 #ifdef CORRECTION
         vec3 of_wall = vec3(0.0);
 #else
-        vec3 of_wall = wall_velocity(2 * axis + (sign > 0 ? 1 : 0), vec3(c) + 0.5 + 0.5 * vec3(e));
+        int wall = 2 * axis + (sign > 0 ? 1 : 0);
+        vec3 x = vec3(c) + 0.5 * vec3(e);  // a component's face is half a cell lower along its own axis
+        vec3 of_wall = vec3(wall_velocity(wall, x + vec3(0.0, 0.5, 0.5)).x, wall_velocity(wall, x + vec3(0.5, 0.0, 0.5)).y,
+                            wall_velocity(wall, x + vec3(0.5, 0.5, 0.0)).z);
 #endif
 #else
         float friction = 0.0;

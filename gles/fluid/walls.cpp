@@ -55,10 +55,12 @@ void Walls::declare(Variant& variant, const glm::vec3& covered) const {
                             constant("INFLOW_LOW", inflow[0]) + constant("INFLOW_HIGH", inflow[1]);
     variant.declarations += fmt::format(
         "uniform float wall_time;  // [s]\n"
-        "vec3 wall_velocity(int wall, vec3 cells) {{\n"
+        "vec3 wall_velocity(int wall, vec3 place) {{\n"
+        "    vec3 most = vec3({2}.0, {3}.0, {4}.0), cells = clamp(place, vec3(0.0), most);\n"
+        "    cells[wall / 2] = wall % 2 == 0 ? 0.0 : most[wall / 2];\n"
         "    float x = {0:.9e} * cells.x, y = {0:.9e} * cells.y, z = {0:.9e} * cells.z, t = wall_time;\n"
         "{1}    return vec3(0.0);\n}}\n",
-        setup_->cell_m, velocity);
+        setup_->cell_m, velocity, setup_->cells.x, setup_->cells.y, setup_->cells.z);
 }
 
 }  // namespace eddy::gles

@@ -9,7 +9,7 @@ namespace eddy::gles {
 /// The tank's walls as the shaders see them. A tank whose walls are all slip walls adds nothing to any shader.
 ///
 /// Declares, where asked for, with walls numbered x low 0, x high 1, ... z high 5 and x in cells:
-///   vec3 wall_velocity(int wall, vec3 x)     of the wall at x [m/s]; 0 where it has none
+///   vec3 wall_velocity(int wall, vec3 x)     of the wall at the point of it nearest x [m/s]; 0 where it has none
 ///   const vec3 FRICTION_LOW, FRICTION_HIGH   weight of the wall in the viscous term of the cell beside it, axis
 ///                                            by axis: 2 (the wall is half a cell away) or 0
 ///   const vec3 OPEN_LOW, OPEN_HIGH           weight of the outside in the pressure equation: 2 or 0
