@@ -48,6 +48,8 @@ struct Box {
     bool empty() const { return hi.x <= lo.x || hi.y <= lo.y || hi.z <= lo.z; }
     Box intersect(const Box& b) const { return {glm::max(lo, b.lo), glm::min(hi, b.hi)}; }
     Box grow(int cells) const { return {lo - cells, hi + cells}; }
+    /// Faces of these cells: one layer more at the upper sides.
+    Box faces() const { return {lo, hi + 1}; }
     /// The cells of the next coarser grid that hold any of these.
     Box coarsen() const { return {lo / 2, (hi + 1) / 2}; }
     bool operator==(const Box&) const = default;

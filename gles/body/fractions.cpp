@@ -7,12 +7,6 @@
 namespace eddy::gles {
 namespace {
 
-/// A face belongs to the two cells at its sides: a box of cells touches one layer of faces more at its upper
-/// side.
-Box faces_of(const Box& cells) {
-    return {cells.lo, cells.hi + 1};
-}
-
 FaceFractions new_fractions(Gpu& gpu, const glm::ivec3& n) {
     return {{gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}};
 }
@@ -69,11 +63,11 @@ void Fractions::update(const BodyUniforms& bodies, const std::vector<Box>& boxes
     before_ = boxes;
 
     std::vector<Box> cells = touched;
-    for (Box& box : touched) box = faces_of(box);
+    for (Box& box : touched) box = box.faces();
     std::vector<Region> coarse;
     for (std::size_t l = 0; l < coarsen_.size(); ++l) {
         std::vector<Box> faces;
-        for (Box& box : cells) faces.push_back(faces_of(box = box.coarsen()));
+        for (Box& box : cells) faces.push_back((box = box.coarsen()).faces());
         coarse.push_back(Region::packed(faces));
     }
     draw(bodies, Region::packed(touched), coarse);

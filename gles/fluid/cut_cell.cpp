@@ -1,7 +1,5 @@
 #include "gles/fluid/cut_cell.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "gles/body/mass_properties.h"
@@ -27,14 +25,11 @@ Variant force_variant(const FluidSetup& setup) {
     if (setup.acceleration_m_s2) {
         const auto& f = setup.acceleration_m_s2->glsl;
         v.defines.emplace_back("FORCING", "");
-        v.declarations = setup.formula_helpers +
-                         fmt::format(
-                             "uniform float time;  // [s]\n"
-                             "vec3 forcing(vec3 cells) {{\n"
-                             "    float x = {0:.9e} * cells.x, y = {0:.9e} * cells.y, z = {0:.9e} * cells.z, "
-                             "t = time;\n"
-                             "    return vec3({1}, {2}, {3});\n}}\n",
-                             setup.cell_m, f[0], f[1], f[2]);
+        v.declarations =
+            setup.formula_helpers + fmt::format(
+                                        "uniform float time;  // [s]\nvec3 forcing(vec3 cells) {{\n{}    "
+                                        "return vec3({}, {}, {});\n}}\n",
+                                        formula_variables(setup.cell_m, "time"), f[0], f[1], f[2]);
     }
     return v;
 }
@@ -87,7 +82,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
       body_uniforms_(gpu, setup_.bodies, setup_.cell_m),
       divergence_(gpu, "divergence", "gles/fluid/divergence.frag", Cells4::layout(setup_.cells),
                   grid_variant(false)),
-      pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr, walls_),
+      pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr, walls_, is_viscous()),
       project_(make_projection(false)),
       results_(gpu, setup_) {
     if (fractions_)
@@ -116,11 +111,6 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
         confinement_.emplace(gpu, "confinement", "gles/fluid/confinement.frag", cells);
     }
     reset();
-}
-
-float CutCellFluid::lambda() const {
-    return static_cast<float>(setup_.viscosity_pa_s / setup_.density_kg_m3 * dt_s_ /
-                              (setup_.cell_m * setup_.cell_m));
 }
 
 std::vector<glm::vec3> CutCellFluid::velocity_at_start() const {
@@ -169,7 +159,8 @@ void CutCellFluid::reset() {
 }
 
 void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool wants_diagnosis) {
-    const float guess_scale = dt_s_ > 0.0 ? static_cast<float>(dt_s / dt_s_) : 1.0f;  // phi ~ dt p
+    // phi ~ dt p; before the first step there is none.
+    const float guess_scale = dt_s_ > 0.0 ? static_cast<float>(dt_s / dt_s_) : 1.0f;
     dt_s_ = dt_s;
     body_uniforms_.set(bodies);
     boxes_.clear();
@@ -190,7 +181,8 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     }
     if (smoke_) {
         Gpu::Stage stage(gpu_, "advect smoke");
-        smoke_ = (*advect_smoke_)(*smoke_, u_, time_s_, dt_s, walls_.time(time_s_));  // s = s(x - dt u) + dt q
+        smoke_ =
+            (*advect_smoke_)(*smoke_, u_, time_s_, dt_s, walls_.time(time_s_));  // s = s(x - dt u) + dt q
     }
     if (body_forces_) {
         Gpu::Stage stage(gpu_, "body forces");
@@ -229,7 +221,9 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     if (traction_) {
         Gpu::Stage stage(gpu_, "force");
         std::optional<Traction::Friction> friction;
-        if (viscosity_) friction.emplace(Traction::Friction{diffused_, viscosity_->distances(), lambda()});
+        if (viscosity_)
+            friction.emplace(
+                Traction::Friction{diffused_, viscosity_->distances(), diffusion_number(setup_, dt_s_)});
         traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_, results_.row(),
                         friction);  // F = int p grad(1 - a) + mu du/dn
     }
@@ -253,28 +247,23 @@ Field<Faces> CutCellFluid::add_body_forces(const Field<Faces>& u) {
         inputs.push_back({"smoke", &smoke_->texture()});
         uniforms.push_back({"weight", static_cast<float>(setup_.smoke->weight)});
     }
+    Field<Cells> swirl;
     if (confinement_) {
-        Field<Cells> vorticity(gpu_, setup_.cells, Format::RGBA32F);
-        Field<Cells> swirl(gpu_, setup_.cells, Format::RGBA32F);
+        const Field<Cells> vorticity(gpu_, setup_.cells, Format::RGBA32F);
+        swirl = Field<Cells>(gpu_, setup_.cells, Format::RGBA32F);
         vorticity_->draw({{"velocity", &u.texture()}}, {}, {&vorticity.texture()});
         confinement_->draw({{"vorticity", &vorticity.texture()}},
                            {{"strength", static_cast<float>(setup_.confinement_1_s)}}, {&swirl.texture()});
         inputs.push_back({"swirl", &swirl.texture()});
-        body_forces_->draw(inputs, uniforms, {&next.texture()});
-    } else {
-        body_forces_->draw(inputs, uniforms, {&next.texture()});
     }
+    body_forces_->draw(inputs, uniforms, {&next.texture()});
     return next;
 }
 
 Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, const Pressure::Work& work) {
-    float scale = work.guess_scale;
-    if (step_ == 0) {
-        // No pressure yet: without one the viscous step would take a fluid held by gravity for one that falls.
-        phi_ = pressure_.solve(divergence(u), work);
-        scale = 1.0f;
-    }
-    const Field<Faces> predicted = project(*predict_, u, phi_, scale);
+    // No pressure yet: without one the viscous step would take a fluid held by gravity for one that falls.
+    if (step_ == 0) phi_ = pressure_.solve(divergence(u), work);
+    const Field<Faces> predicted = project(*predict_, u, phi_, work.guess_scale);
     // The last step's result is a better guess than this step's right-hand side: at rest in a steady flow it is the
     // solution, whatever the cycles leave.
     return viscosity_->diffuse(step_ == 0 ? predicted : diffused_, predicted, dt_s_,
@@ -286,7 +275,7 @@ Field<Cells4> CutCellFluid::solve_pressure(const Field<Cells4>& b, const Pressur
     increment_ = pressure_.solve(b, work);
     Field<Cells4> phi(gpu_, setup_.cells, Format::RGBA32F);
     add_pressure_->draw({{"phi", &phi_.texture()}, {"increment", &increment_.texture()}, {"b", &b.texture()}},
-                        {{"scale", step_ == 0 ? 1.0f : work.guess_scale}, {"lambda", lambda()}},
+                        {{"scale", work.guess_scale}, {"lambda", diffusion_number(setup_, dt_s_)}},
                         {&phi.texture()});
     return phi;
 }

@@ -55,7 +55,6 @@ class CutCellFluid final : public Fluid {
     std::vector<glm::dvec3> turning_torque(const std::vector<BodyState>& bodies) const;
     void diagnose(const Field<Cells4>& before);
     bool is_viscous() const { return setup_.viscosity_pa_s > 0.0; }
-    float lambda() const;
 
     // --- state, and who writes it                                             unit       cells
     Gpu& gpu_;

@@ -53,7 +53,8 @@ std::vector<float> chebyshev_weights(int m, double low, double high) {
     return weights;
 }
 
-Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions, const Walls& walls)
+Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions, const Walls& walls,
+                   bool from_zero)
     : gpu_(&gpu), fractions_(fractions) {
     const std::vector<glm::ivec3> grids = multigrid_levels(cells);
     for (std::size_t l = 0; l < grids.size(); ++l) {
@@ -71,8 +72,9 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
         Level& level = levels_[l];
         const AtlasLayout here = Cells4::layout(grids[l]);
         level.sweep.emplace(make(gpu, "smooth", "gles/fluid/smooth.frag", l, here, {}, walls));
-        level.first_sweep.emplace(make(gpu, "smooth from zero", "gles/fluid/smooth.frag", l, here,
-                                       {.defines = {{"FROM_ZERO", ""}}}, walls));
+        if (l > 0 || from_zero)
+            level.first_sweep.emplace(make(gpu, "smooth from zero", "gles/fluid/smooth.frag", l, here,
+                                           {.defines = {{"FROM_ZERO", ""}}}, walls));
         if (l + 1 == grids.size()) break;
         const AtlasLayout coarse = Cells4::layout(grids[l + 1]);
         level.restrict.emplace(
@@ -205,8 +207,7 @@ Field<Cells4> Pressure::cycles(std::optional<Field<Cells4>> phi, const Field<Cel
         level.boxes = at_level;
         for (Box& box : at_level) box = box.coarsen().grow(1);
     }
-    for (int i = 0; i < work.cycles; ++i)
-        phi = cycle(0, std::move(phi), i == 0 ? work.guess_scale : 1.0f, b);
+    for (int i = 0; i < work.cycles; ++i) phi = cycle(0, std::move(phi), i == 0 ? work.guess_scale : 1.0f, b);
     if (!work.rough.empty()) sweep_rough(*phi, b, work.rough);
     return *std::move(phi);
 }

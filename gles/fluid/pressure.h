@@ -30,7 +30,9 @@ struct BodyMotion {
 class Pressure {
   public:
     /// `fractions`: null when nothing solid is in the tank. Must outlive this.
-    Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions, const Walls& walls);
+    /// `from_zero`: solve() without a guess will be called.
+    Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions, const Walls& walls,
+             bool from_zero = false);
 
     /// Moves phi along with the bodies, to serve as first guess for where they are now; `boxes` as for
     /// solve().
@@ -39,8 +41,7 @@ class Pressure {
         int cycles = 2;            ///< V-cycles
         float guess_scale = 1.0f;  ///< the first guess is this times phi, which grows with dt
         std::vector<Box> cut{};    ///< cells whose fractions may not be 1
-        std::vector<Box>
-            rough{};  ///< those, and all where b jumps from cell to cell: swept twice more
+        std::vector<Box> rough{};  ///< those, and all where b jumps from cell to cell: swept twice more
     };
     /// A better phi for right-hand side b.
     Field<Cells4> solve(Field<Cells4> phi, const Field<Cells4>& b, const Work& work);

@@ -123,10 +123,10 @@ struct FluidSetup {
     double density_kg_m3 = 1.2;
     double viscosity_pa_s = 0.0;  ///< mu, dynamic; 0: no viscous term anywhere
     glm::dvec3 gravity_m_s2{0.0};
-    std::array<WallSetup, 6> walls{};  ///< x low, x high, y low, y high, z low, z high
+    std::array<WallSetup, 6> walls{};                  ///< x low, x high, y low, y high, z low, z high
     std::optional<VectorFormula> acceleration_m_s2{};  ///< a force on all of the fluid, per mass
-    double confinement_1_s = 0.0;  ///< eps of vorticity confinement, f = eps h (N x w); 0: none
-    std::string formula_helpers{};     ///< GLSL functions that the formulas call
+    double confinement_1_s = 0.0;   ///< eps of vorticity confinement, f = eps h (N x w); 0: none
+    std::string formula_helpers{};  ///< GLSL functions that the formulas call
     /// Velocity at the start at a place of the tank [m]; empty: at rest.
     std::function<glm::dvec3(const glm::dvec3&)> velocity_at_start{};
     std::optional<SmokeSetup> smoke{};
@@ -134,6 +134,12 @@ struct FluidSetup {
     std::vector<BodySetup> bodies{};
     SolverSetup solver;
 };
+
+/// nu dt / h^2: how many cells far, squared, momentum diffuses in a step.
+inline float diffusion_number(const FluidSetup& setup, double dt_s) {
+    return static_cast<float>(setup.viscosity_pa_s / setup.density_kg_m3 * dt_s /
+                              (setup.cell_m * setup.cell_m));
+}
 
 /// Where a body is and how it moves at the end of a step.
 struct BodyState {

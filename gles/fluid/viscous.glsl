@@ -28,7 +28,7 @@ vec3 axis_of(int axis) {
 vec3 surface(ivec3 c, ivec3 e, vec3 here, out vec3 cut) {
     vec3 there = at_clamped(distances, FACES, c + e).xyz;
     cut = vec3(greaterThan(here, vec3(0.0))) * vec3(lessThanEqual(there, vec3(0.0)));
-    return mix(vec3(1.0), clamp(here / (here - there + 1.0 - cut), kLeastTheta, 1.0), cut);
+    return mix(vec3(1.0), clamp(here / max(here - there, vec3(1e-6)), kLeastTheta, 1.0), cut);
 }
 
 // The bodies' velocity at those points, component by component.

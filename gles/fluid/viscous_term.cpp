@@ -20,10 +20,6 @@ std::vector<float> weights(int n, float lambda, double low) {
     return chebyshev_weights(n, std::max(low, least), 2.0 - least);
 }
 
-Box faces_of(const Box& cells) {
-    return {cells.lo, cells.hi + 1};
-}
-
 }  // namespace
 
 float ViscousTerm::Equation::on(std::size_t level) const {
@@ -80,9 +76,9 @@ void ViscousTerm::place(const BodyUniforms& bodies, const std::vector<Box>& boxe
     std::vector<Box> here = boxes, before = before_;
     for (Level& level : levels_) {
         level.boxes.clear();
-        for (const Box& box : here) level.boxes.push_back(faces_of(box));
+        for (const Box& box : here) level.boxes.push_back(box.faces());
         std::vector<Box> touched = level.boxes;
-        for (const Box& box : before) touched.push_back(faces_of(box));
+        for (const Box& box : before) touched.push_back(box.faces());
         level.draw_distances->draw(bodies.inputs(), bodies.uniforms(), {&level.distances->texture()},
                                    placed_ ? Region(touched) : Region::everything());
         for (Box& box : here) box = box.coarsen().grow(1).intersect({glm::ivec3(0), level.cells});
@@ -141,9 +137,7 @@ Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, const 
 
 Field<Faces> ViscousTerm::diffuse(const Field<Faces>& guess, const Field<Faces>& u_star, double dt_s,
                                   int cycles, const BodyUniforms& bodies, const Uniform& wall_time) {
-    const double nu = setup_->viscosity_pa_s / setup_->density_kg_m3;
-    Equation equation{static_cast<float>(nu * dt_s / (setup_->cell_m * setup_->cell_m)), 1,
-                      bodies.uniforms()};
+    Equation equation{diffusion_number(*setup_, dt_s), 1, bodies.uniforms()};
     equation.uniforms.push_back(wall_time);
     while (equation.levels < levels_.size() && equation.on(equation.levels) > kLeastLambda) ++equation.levels;
     Field<Faces> u = cycle(0, &guess, u_star, equation);

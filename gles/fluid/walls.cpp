@@ -21,6 +21,12 @@ std::string constant(const char* name, const glm::vec3& v) {
 
 }  // namespace
 
+std::string formula_variables(double cell_m, const char* time) {
+    return fmt::format(
+        "    float x = {0:.9e} * cells.x, y = {0:.9e} * cells.y, z = {0:.9e} * cells.z, t = {1};\n", cell_m,
+        time);
+}
+
 bool Walls::let_through() const {
     return std::any_of(setup_->walls.begin(), setup_->walls.end(), lets_through);
 }
@@ -58,9 +64,9 @@ void Walls::declare(Variant& variant, const glm::vec3& covered) const {
         "vec3 wall_velocity(int wall, vec3 place) {{\n"
         "    vec3 most = vec3({2}.0, {3}.0, {4}.0), cells = clamp(place, vec3(0.0), most);\n"
         "    cells[wall / 2] = wall % 2 == 0 ? 0.0 : most[wall / 2];\n"
-        "    float x = {0:.9e} * cells.x, y = {0:.9e} * cells.y, z = {0:.9e} * cells.z, t = wall_time;\n"
-        "{1}    return vec3(0.0);\n}}\n",
-        setup_->cell_m, velocity, setup_->cells.x, setup_->cells.y, setup_->cells.z);
+        "{0}{1}    return vec3(0.0);\n}}\n",
+        formula_variables(setup_->cell_m, "wall_time"), velocity, setup_->cells.x, setup_->cells.y,
+        setup_->cells.z);
 }
 
 }  // namespace eddy::gles

@@ -6,6 +6,9 @@
 
 namespace eddy::gles {
 
+/// GLSL that declares x, y, z [m] and t [s] for a formula, from a place `cells` and a uniform `time`.
+std::string formula_variables(double cell_m, const char* time);
+
 /// The tank's walls as the shaders see them. A tank whose walls are all slip walls adds nothing to any shader.
 ///
 /// Declares, where asked for, with walls numbered x low 0, x high 1, ... z high 5 and x in cells:

@@ -12,11 +12,6 @@ Variant sweep_variant(const Voxels* voxels, const Walls& walls) {
 
 }  // namespace
 
-float diffusion_number(const FluidSetup& setup, double dt_s) {
-    const double nu = setup.viscosity_pa_s / setup.density_kg_m3;
-    return static_cast<float>(nu * dt_s / (setup.cell_m * setup.cell_m));
-}
-
 Viscosity::Viscosity(Gpu& gpu, const FluidSetup& setup, const Voxels* voxels)
     : gpu_(&gpu),
       voxels_(voxels),

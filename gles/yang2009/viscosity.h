@@ -4,9 +4,6 @@
 
 namespace eddy::gles {
 
-/// k = nu dt / h^2: the square of how far velocity diffuses in a step, in cells.
-float diffusion_number(const FluidSetup& setup, double dt_s);
-
 /// Lets the velocity diffuse for one step, implicitly (Stam 1999), so that no viscosity is too large: solves
 /// (1 - k laplacian) u = u* by Jacobi sweeps from u*. No slip at obstacles and at walls that have
 /// friction, free slip at the others.
