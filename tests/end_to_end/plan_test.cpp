@@ -32,8 +32,6 @@ PrintedPlan plan_of(std::vector<std::string> scene) {
     return plan;
 }
 
-const std::string kTiny = "tank.cells=[16,16,16]";
-
 TEST(Plan, AddsUpToItsTotal) {
     for (const std::string scene : {"jet", "stir", "rest", "bench", "added_mass"})
         for (const std::string preset : {"fast", "precise", "yang2009"}) {

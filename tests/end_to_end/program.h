@@ -37,6 +37,9 @@ Ended eddy(std::vector<std::string> arguments);
 /// What Program takes to start the eddy under test.
 std::vector<std::string> eddy_command(std::vector<std::string> arguments);
 
+/// Makes any scene quick, with --set.
+inline const std::string kTiny = "tank.cells=[16,16,16]";
+
 std::vector<std::string> lines_of(const std::string& text);
 std::vector<std::string> split(const std::string& text, char separator);
 

@@ -10,8 +10,6 @@
 namespace eddy {
 namespace {
 
-const std::string kTiny = "tank.cells=[16,16,16]";
-
 /// A NumPy file of little-endian 32-bit floats.
 struct Npy {
     std::vector<std::size_t> shape;

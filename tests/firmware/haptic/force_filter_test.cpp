@@ -8,10 +8,11 @@
 #include <numbers>
 #include <vector>
 
+#include "firmware/haptic/law.h"
+
 namespace eddy {
 namespace {
 
-constexpr Seconds kTickS{0.001};
 constexpr Seconds kPeriod50{0.020};                             // fluid at 50 Hz: cut-off 12.5 Hz
 constexpr double kTau = 1.0 / (2.0 * std::numbers::pi * 12.5);  // [s]
 const ForceFilterSettings kNoImpulseLimit{.impulse_n = 1e6};
@@ -30,7 +31,7 @@ std::vector<double> settled(Force force, Seconds fluid_period) {
     ForceFilter filter(kNoImpulseLimit);
     std::vector<double> samples;
     for (int i = 0; i < 2000; ++i) {
-        const glm::dvec3 y = filter(glm::dvec3(force(i), 0.0, 0.0), fluid_period, kTickS);
+        const glm::dvec3 y = filter(glm::dvec3(force(i), 0.0, 0.0), fluid_period, kNominalTick);
         if (i >= 1000) samples.push_back(y.x);
     }
     return samples;
@@ -39,7 +40,7 @@ std::vector<double> settled(Force force, Seconds fluid_period) {
 TEST(ForceFilter, StepResponseIsTheExactExponential) {
     ForceFilter filter(kNoImpulseLimit);
     for (int i = 1; i <= 100; ++i) {
-        const glm::dvec3 y = filter(glm::dvec3(4.0, -2.0, 0.0), kPeriod50, kTickS);
+        const glm::dvec3 y = filter(glm::dvec3(4.0, -2.0, 0.0), kPeriod50, kNominalTick);
         const double exact = 1.0 - std::exp(-1e-3 * i / kTau);
         EXPECT_NEAR(y.x, 4.0 * exact, 1e-13);
         EXPECT_NEAR(y.y, -2.0 * exact, 1e-13);
@@ -50,9 +51,9 @@ TEST(ForceFilter, StepResponseIsTheExactExponential) {
 TEST(ForceFilter, DoesNotCareHowTimeIsCutIntoTicks) {
     ForceFilter even(kNoImpulseLimit), uneven(kNoImpulseLimit);
     const glm::dvec3 step(1.0, 2.0, 3.0);
-    for (int i = 0; i < 10; ++i) even(step, kPeriod50, kTickS);
+    for (int i = 0; i < 10; ++i) even(step, kPeriod50, kNominalTick);
     for (const double ms : {0.1, 3.7, 0.0, 1.2, 4.0}) uneven(step, kPeriod50, Seconds(ms * 1e-3));
-    const glm::dvec3 a = even(step, kPeriod50, kTickS), b = uneven(step, kPeriod50, Seconds(0.002));
+    const glm::dvec3 a = even(step, kPeriod50, kNominalTick), b = uneven(step, kPeriod50, Seconds(0.002));
     EXPECT_NEAR(glm::length(a - b), 0.0, 1e-14);
 }
 
@@ -100,14 +101,15 @@ TEST(ForceFilter, CutOffFollowsTheFluidWithinItsBand) {
 TEST(ForceFilter, ChangingTheBandwidthMakesNoJump) {
     ForceFilter filter(kNoImpulseLimit);
     glm::dvec3 before(0.0);
-    for (int i = 0; i < 1000; ++i) before = filter(glm::dvec3(5.0, 0.0, 0.0), kPeriod50, kTickS);
-    EXPECT_NEAR(glm::length(filter(glm::dvec3(5.0, 0.0, 0.0), Seconds(0.005), kTickS) - before), 0.0, 1e-12);
+    for (int i = 0; i < 1000; ++i) before = filter(glm::dvec3(5.0, 0.0, 0.0), kPeriod50, kNominalTick);
+    EXPECT_NEAR(glm::length(filter(glm::dvec3(5.0, 0.0, 0.0), Seconds(0.005), kNominalTick) - before), 0.0,
+                1e-12);
 }
 
 TEST(ForceFilter, LimitsAnImpulseAndKeepsItsDirection) {
     ForceFilter filter({.impulse_n = 1.0});
     const double w = 1.0 - std::exp(-1e-3 / kTau);
-    const glm::dvec3 y = filter(glm::dvec3(300.0, 0.0, -400.0), kPeriod50, kTickS);
+    const glm::dvec3 y = filter(glm::dvec3(300.0, 0.0, -400.0), kPeriod50, kNominalTick);
     EXPECT_NEAR(glm::length(y - w * glm::dvec3(0.6, 0.0, -0.8)), 0.0, 1e-15);
     EXPECT_EQ(filter.impulses(), 1U);
 }
@@ -116,7 +118,7 @@ TEST(ForceFilter, LeavesAForceBelowTheImpulseThresholdAlone) {
     ForceFilter limited({.impulse_n = 1.0}), linear(kNoImpulseLimit);
     for (int i = 0; i < 500; ++i) {
         const glm::dvec3 raw(0.3 * std::sin(0.01 * i), 0.3, 0.0);
-        EXPECT_EQ(limited(raw, kPeriod50, kTickS), linear(raw, kPeriod50, kTickS));
+        EXPECT_EQ(limited(raw, kPeriod50, kNominalTick), linear(raw, kPeriod50, kNominalTick));
     }
     EXPECT_EQ(limited.impulses(), 0U);
 }
@@ -124,8 +126,8 @@ TEST(ForceFilter, LeavesAForceBelowTheImpulseThresholdAlone) {
 TEST(ForceFilter, HandsOnANumberThatIsNotFiniteButDoesNotKeepIt) {
     ForceFilter filter;
     const glm::dvec3 nan(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
-    EXPECT_TRUE(std::isnan(filter(nan, kPeriod50, kTickS).y));
-    EXPECT_EQ(filter(glm::dvec3(0.0), kPeriod50, kTickS), glm::dvec3(0.0));
+    EXPECT_TRUE(std::isnan(filter(nan, kPeriod50, kNominalTick).y));
+    EXPECT_EQ(filter(glm::dvec3(0.0), kPeriod50, kNominalTick), glm::dvec3(0.0));
 }
 
 }  // namespace

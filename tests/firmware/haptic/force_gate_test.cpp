@@ -7,12 +7,12 @@
 #include <limits>
 #include <random>
 
+#include "firmware/haptic/law.h"
 #include "firmware/haptic/vector.h"
 
 namespace eddy {
 namespace {
 
-constexpr Seconds kTickS{0.001};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
@@ -22,7 +22,7 @@ GateInput wanted(const glm::dvec3& force_n) {
 
 glm::dvec3 repeat(ForceGate& gate, const GateInput& in, int ticks) {
     glm::dvec3 force(0.0);
-    for (int i = 0; i < ticks; ++i) force = gate(in, kTickS);
+    for (int i = 0; i < ticks; ++i) force = gate(in, kNominalTick);
     return force;
 }
 
@@ -35,36 +35,36 @@ ForceGate opened(const glm::dvec3& force_n, const GateLimits& limits = {}) {
 
 TEST(ForceGate, PassesAForceWithinItsLimitsUnchanged) {
     ForceGate gate = opened(glm::dvec3(1.0, -2.0, 3.0));
-    EXPECT_EQ(gate(wanted(glm::dvec3(1.0, -2.0, 3.0)), kTickS), glm::dvec3(1.0, -2.0, 3.0));
+    EXPECT_EQ(gate(wanted(glm::dvec3(1.0, -2.0, 3.0)), kNominalTick), glm::dvec3(1.0, -2.0, 3.0));
     EXPECT_EQ(gate.reason(), GateReason::Open);
     EXPECT_EQ(gate.counters().clamped, 0U);
 }
 
 TEST(ForceGate, ClampsTheLengthAndKeepsTheDirection) {
     ForceGate gate = opened(glm::dvec3(30.0, 0.0, 40.0), {.max_force_n = 5.0});
-    const glm::dvec3 force = gate(wanted(glm::dvec3(30.0, 0.0, 40.0)), kTickS);
+    const glm::dvec3 force = gate(wanted(glm::dvec3(30.0, 0.0, 40.0)), kNominalTick);
     EXPECT_NEAR(glm::length(force - glm::dvec3(3.0, 0.0, 4.0)), 0.0, 1e-14);
     EXPECT_EQ(gate.counters().clamped, 2001U);
 }
 
 TEST(ForceGate, NoSettingRaisesTheForceAboveTheDevices) {
     ForceGate gate = opened(glm::dvec3(100.0, 0.0, 0.0), {.max_force_n = 50.0});
-    EXPECT_DOUBLE_EQ(glm::length(gate(wanted(glm::dvec3(100.0, 0.0, 0.0)), kTickS)), kDeviceMaxForceN);
+    EXPECT_DOUBLE_EQ(glm::length(gate(wanted(glm::dvec3(100.0, 0.0, 0.0)), kNominalTick)), kDeviceMaxForceN);
 }
 
 TEST(ForceGate, ALimitThatIsNotANumberShutsIt) {
     for (const GateLimits& bad : {GateLimits{.max_force_n = kNan}, GateLimits{.max_force_n = -1.0},
                                   GateLimits{.slew_n_per_s = kNan}, GateLimits{.slew_n_per_s = -1.0}}) {
         ForceGate gate = opened(glm::dvec3(3.0, 0.0, 0.0), bad);
-        EXPECT_EQ(gate(wanted(glm::dvec3(3.0, 0.0, 0.0)), kTickS), glm::dvec3(0.0));
+        EXPECT_EQ(gate(wanted(glm::dvec3(3.0, 0.0, 0.0)), kNominalTick), glm::dvec3(0.0));
     }
 }
 
 TEST(ForceGate, SlewsToANewForceAtTheLimit) {
     ForceGate gate = opened(glm::dvec3(0.0), {.slew_n_per_s = 100.0});
     for (int i = 1; i <= 40; ++i)
-        EXPECT_NEAR(gate(wanted(glm::dvec3(0.0, 4.0, 0.0)), kTickS).y, 0.1 * i, 1e-12);
-    EXPECT_NEAR(gate(wanted(glm::dvec3(0.0, 4.0, 0.0)), kTickS).y, 4.0, 1e-12);
+        EXPECT_NEAR(gate(wanted(glm::dvec3(0.0, 4.0, 0.0)), kNominalTick).y, 0.1 * i, 1e-12);
+    EXPECT_NEAR(gate(wanted(glm::dvec3(0.0, 4.0, 0.0)), kNominalTick).y, 4.0, 1e-12);
     EXPECT_NEAR(static_cast<double>(gate.counters().slewed), 39.5,
                 0.6);  // the last step may round either way
 }
@@ -77,8 +77,8 @@ TEST(ForceGate, ALateTickDoesNotSpendTheWholeGapInOneStep) {
 TEST(ForceGate, StartsSoftlyOverOneSecond) {
     ForceGate gate;
     for (int i = 1; i <= 1000; ++i)
-        EXPECT_NEAR(gate(wanted(glm::dvec3(0.0, 0.0, 8.0)), kTickS).z, 8.0 * i / 1000.0, 1e-9);
-    EXPECT_NEAR(gate(wanted(glm::dvec3(0.0, 0.0, 8.0)), kTickS).z, 8.0, 1e-9);
+        EXPECT_NEAR(gate(wanted(glm::dvec3(0.0, 0.0, 8.0)), kNominalTick).z, 8.0 * i / 1000.0, 1e-9);
+    EXPECT_NEAR(gate(wanted(glm::dvec3(0.0, 0.0, 8.0)), kNominalTick).z, 8.0, 1e-9);
 }
 
 TEST(ForceGate, EachFaultZeroesTheForceInOneTickAndReturnsSoftly) {
@@ -94,9 +94,9 @@ TEST(ForceGate, EachFaultZeroesTheForceInOneTickAndReturnsSoftly) {
         ForceGate gate = opened(force);
         GateInput in = wanted(force);
         happen(in);
-        EXPECT_EQ(gate(in, kTickS), glm::dvec3(0.0)) << to_string(reason);
+        EXPECT_EQ(gate(in, kNominalTick), glm::dvec3(0.0)) << to_string(reason);
         EXPECT_EQ(gate.reason(), reason);
-        EXPECT_NEAR(gate(wanted(force), kTickS).y, 0.008, 1e-12) << to_string(reason);
+        EXPECT_NEAR(gate(wanted(force), kNominalTick).y, 0.008, 1e-12) << to_string(reason);
         EXPECT_EQ(gate.reason(), GateReason::Starting);
     }
 }
@@ -105,14 +105,14 @@ TEST(ForceGate, ANumberThatIsNotFiniteBecomesZeroAndLatchesUntilReset) {
     const glm::dvec3 force(0.0, 8.0, 0.0);
     for (const double bad : {kNan, kInf, -kInf}) {
         ForceGate gate = opened(force);
-        EXPECT_EQ(gate(wanted(glm::dvec3(0.0, 0.0, bad)), kTickS), glm::dvec3(0.0));
+        EXPECT_EQ(gate(wanted(glm::dvec3(0.0, 0.0, bad)), kNominalTick), glm::dvec3(0.0));
         EXPECT_EQ(repeat(gate, wanted(force), 5000), glm::dvec3(0.0));
         EXPECT_EQ(gate.reason(), GateReason::NotFinite);
         EXPECT_EQ(gate.counters().non_finite, 1U);
 
         GateInput reset = wanted(force);
         reset.reset = true;
-        EXPECT_NEAR(gate(reset, kTickS).y, 0.008, 1e-12);
+        EXPECT_NEAR(gate(reset, kNominalTick).y, 0.008, 1e-12);
     }
 }
 
@@ -120,7 +120,7 @@ TEST(ForceGate, ASpeedThatIsNotFiniteLatchesToo) {
     ForceGate gate = opened(glm::dvec3(1.0));
     GateInput in = wanted(glm::dvec3(1.0));
     in.speed_m_s = kNan;
-    EXPECT_EQ(gate(in, kTickS), glm::dvec3(0.0));
+    EXPECT_EQ(gate(in, kNominalTick), glm::dvec3(0.0));
     EXPECT_EQ(repeat(gate, wanted(glm::dvec3(1.0)), 100), glm::dvec3(0.0));
 }
 
@@ -128,12 +128,12 @@ TEST(ForceGate, ASilentDeviceLatchesUntilResetAndAgainIfStillSilent) {
     ForceGate gate = opened(glm::dvec3(1.0));
     GateInput silent = wanted(glm::dvec3(1.0));
     silent.device_silent = true;
-    EXPECT_EQ(gate(silent, kTickS), glm::dvec3(0.0));
+    EXPECT_EQ(gate(silent, kNominalTick), glm::dvec3(0.0));
     EXPECT_EQ(repeat(gate, wanted(glm::dvec3(1.0)), 100), glm::dvec3(0.0));
     EXPECT_EQ(gate.reason(), GateReason::DeviceSilent);
 
     silent.reset = true;
-    EXPECT_EQ(gate(silent, kTickS), glm::dvec3(0.0));
+    EXPECT_EQ(gate(silent, kNominalTick), glm::dvec3(0.0));
     EXPECT_EQ(repeat(gate, wanted(glm::dvec3(1.0)), 100), glm::dvec3(0.0));
 }
 
@@ -143,11 +143,11 @@ TEST(ForceGate, FadesAStaleForceToZeroIn100msHoweverSlowTheSlew) {
         GateInput stale = wanted(glm::dvec3(5.0, 5.0, 5.0));  // nobody believes this one
         stale.fluid_stale = true;
         for (int i = 1; i < 100; ++i) {
-            const glm::dvec3 force = gate(stale, kTickS);
+            const glm::dvec3 force = gate(stale, kNominalTick);
             EXPECT_NEAR(glm::length(force - glm::dvec3(0.0, 8.0 * (1.0 - i / 100.0), 0.0)), 0.0, 1e-12);
             EXPECT_NE(force.y, 0.0);
         }
-        EXPECT_EQ(gate(stale, kTickS), glm::dvec3(0.0));
+        EXPECT_EQ(gate(stale, kNominalTick), glm::dvec3(0.0));
         EXPECT_EQ(gate.reason(), GateReason::FluidStale);
     }
 }
@@ -168,7 +168,7 @@ TEST(ForceGate, ComesBackFromAStallAtNoMoreThan20MillinewtonsATick) {
     stale.fluid_stale = true;
     glm::dvec3 last = repeat(gate, stale, 150);
     for (int i = 0; i < 1100; ++i) {
-        const glm::dvec3 force = gate(wanted(glm::dvec3(0.0, 8.0, 0.0)), kTickS);
+        const glm::dvec3 force = gate(wanted(glm::dvec3(0.0, 8.0, 0.0)), kNominalTick);
         EXPECT_LE(glm::length(force - last), 0.020);
         last = force;
     }

@@ -9,7 +9,6 @@
 namespace eddy {
 namespace {
 
-constexpr Seconds kTickS{0.001};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A hand at rest in the middle of a 0.2 m tank, a fluid at 50 Hz that pushes with 2 N upwards, and a law at
@@ -39,7 +38,7 @@ struct Bench {
         in.silence = in.now - last_reply;
         const std::int64_t fluid_ticks = std::llround(in.fluid.fluid_period.count() * 1000.0);
         if (fluid_runs && (ticks - 1) % fluid_ticks == 0) ++in.fluid.sequence;
-        return law(state, in, kTickS);
+        return law(state, in, kNominalTick);
     }
     LawOutput run(int n) {
         LawOutput out;
@@ -180,7 +179,7 @@ TEST(Law, APeriodThatIsNotFiniteIsAllowed100ms) {
         for (int i = 0; i < 60; ++i) {
             ++bench.ticks;
             bench.in.now = std::chrono::milliseconds(bench.ticks);
-            law(bench.state, bench.in, kTickS);
+            law(bench.state, bench.in, kNominalTick);
         }
         EXPECT_EQ(bench.state.gate.reason(), GateReason::FluidStale);
     }

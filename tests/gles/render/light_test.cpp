@@ -27,8 +27,6 @@ LightVolume light_of(Gpu& gpu, const FluidSetup& fluid, const RenderSetup& rende
 }
 
 const RenderSetup kFromAbove{.width_px = 16, .height_px = 16, .to_key = {0.0, 1.0, 0.0}};
-const StillSmoke::Density kNone = [](glm::vec3) { return 0.0f; };
-const StillSmoke::Density kUniform = [](glm::vec3) { return 1.0f; };
 
 TEST(Light, IsFullEverywhereInAnEmptyTank) {
     Gpu& gpu = shared_gpu();

@@ -15,8 +15,6 @@ using testing::ElementsAre;
 using testing::Not;
 
 const RenderSetup kSmall{.width_px = 160, .height_px = 120};
-const StillSmoke::Density kNone = [](glm::vec3) { return 0.0f; };
-const StillSmoke::Density kUniform = [](glm::vec3) { return 1.0f; };
 
 /// Light that is displayed as `value` of 255 at exposure 1: the inverse of displayed() in picture.frag, by
 /// bisection.

@@ -55,6 +55,9 @@ inline BodyState ball_at(const glm::dvec3& centre_cells) {
     return {.centre_m = 0.005 * centre_cells};
 }
 
+inline const StillSmoke::Density kNone = [](glm::vec3) { return 0.0f; };
+inline const StillSmoke::Density kUniform = [](glm::vec3) { return 1.0f; };
+
 /// A round cloud with soft edge, density 1 in the middle.
 inline StillSmoke::Density cloud(const glm::vec3& centre, float radius) {
     return [=](glm::vec3 x) { return std::max(0.0f, 1.0f - glm::distance(x, centre) / radius); };
