@@ -1,12 +1,34 @@
-// distances.frag     d = signed distance of each face to the nearest body's surface, negative inside
+// distances.frag     d = signed distance of each face to the nearest body's surface, negative inside;  v = the fluid's share
 //
 // reads   the bodies' shapes and poses (uniforms)                      [cells]
-// writes  d           RGBA32F  Faces (nx+1, ny+1, nz+1) of a grid SCALE times as coarse     [cells of that grid]
-// fetches 0
-out vec4 result;
+// reads   ax, ay, az  RGBA32F  Faces4                                  not by variant COARSE
+// writes  d, v        RGBA32F  Faces (nx+1, ny+1, nz+1) of a grid SCALE times as coarse     [cells of that grid]
+// fetches 3, COARSE 0
+//
+// Variant COARSE: grids that serve as corrections only; there v follows from d.
+#ifndef COARSE
+uniform sampler2D ax, ay, az;
+#endif
+
+layout(location = 0) out vec4 d;
+layout(location = 1) out vec4 v;
+
+const float kReach = 0.83;  // as in grip.frag
+
+#ifndef COARSE
+float lane(sampler2D a, ivec3 c) {
+    return dot(at(a, FRACTION, ivec3(c.xy, c.z >> 2)), vec4(equal(ivec4(c.z & 3), ivec4(0, 1, 2, 3))));
+}
+#endif
 
 void main() {
-    vec3 x = vec3(cell_here(TARGET));
-    result = vec4(solid_distance(SCALE * (x + vec3(0.0, 0.5, 0.5))), solid_distance(SCALE * (x + vec3(0.5, 0.0, 0.5))),
-                  solid_distance(SCALE * (x + vec3(0.5, 0.5, 0.0))), 0.0) / SCALE;
+    ivec3 c = cell_here(TARGET);
+    vec3 x = vec3(c);
+    d = vec4(solid_distance(SCALE * (x + vec3(0.0, 0.5, 0.5))), solid_distance(SCALE * (x + vec3(0.5, 0.0, 0.5))),
+             solid_distance(SCALE * (x + vec3(0.5, 0.5, 0.0))), 0.0) / SCALE;
+#ifndef COARSE
+    v = vec4(lane(ax, c), lane(ay, c), lane(az, c), 0.0);
+#else
+    v = smoothstep(-kReach, kReach, d);
+#endif
 }

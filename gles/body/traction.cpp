@@ -12,8 +12,7 @@ Traction::Traction(Gpu& gpu, const FluidSetup& setup, int target_width) : gpu_(&
         .layouts = {{"PHI", Cells4::layout(n)}, {"FRACTION", Faces4::layout(n)}, {"FACES", Faces::layout(n)}},
         .defines = {{"CELLS", glsl(n)}},
         .declarations = shape_declarations(setup.bodies)};
-    if (setup.viscosity_pa_s > 0.0)
-        variant.defines.insert(variant.defines.end(), {{"VISCOUS", ""}, {"CUT", ""}});
+    if (setup.viscosity_pa_s > 0.0) variant.defines.emplace_back("VISCOUS", "");
     for (std::size_t i = 0; i < setup.bodies.size(); ++i) {
         const BodySetup& body = setup.bodies[i];
         if (!body.force && !body.torque) continue;
@@ -36,7 +35,10 @@ void Traction::draw(const Field<Cells4>& phi, const FaceFractions& a, const Body
     std::vector<Uniform> values = uniforms.uniforms();
     if (friction) {
         inputs.push_back({"velocity", &friction->velocity.texture()});
-        inputs.push_back({"distances", &friction->distances.texture()});
+        const Grip::Level& grip = friction->grip.level(0);
+        inputs.insert(inputs.end(), {{"distances", &grip.distances.texture()},
+                                     {"grips", &grip.grips.texture()},
+                                     {"surface", &friction->grip.surface().texture()}});
         values.push_back({"lambda", friction->lambda});
     }
     for (Body& body : bodies_) {

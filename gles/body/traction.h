@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "gles/body/fractions.h"
+#include "gles/body/grip.h"
 #include "gles/reduce.h"
 
 namespace eddy::gles {
@@ -14,11 +15,11 @@ class Traction {
     /// `target_width`: width in texels of the row that takes the results.
     Traction(Gpu& gpu, const FluidSetup& setup, int target_width);
 
-    /// What friction is computed from: the velocity that the viscous step left, the faces' distances to the
-    /// bodies, and nu dt / h^2.
+    /// What friction is computed from: the velocity that the viscous step left, where the bodies hold it, and
+    /// nu dt / h^2.
     struct Friction {
         const Field<Faces>& velocity;
-        const Field<Faces>& distances;
+        const Grip& grip;
         float lambda;
     };
 

@@ -55,13 +55,12 @@ Variant CutCellFluid::grid_variant(bool cut) const {
     return v;
 }
 
-CutCellFluid::Projection CutCellFluid::make_projection(bool predicts) {
-    const std::string name = predicts ? "predict" : "project";
+CutCellFluid::Projection CutCellFluid::make_projection() {
     const auto make = [&](const char* suffix, bool cut, bool walls) {
         Variant variant = grid_variant(cut);
         if (walls) variant.defines.emplace_back("WALLS", "");
-        if (predicts) variant.defines.emplace_back("PREDICT", "");
-        return Pass(gpu_, name + suffix, "gles/fluid/project.frag", Faces::layout(setup_.cells), variant);
+        return Pass(gpu_, std::string("project") + suffix, "gles/fluid/project.frag",
+                    Faces::layout(setup_.cells), variant);
     };
     const bool solids = fractions_.has_value();
     return {make("", false, false), solids ? std::optional<Pass>(make(" cut", true, false)) : std::nullopt,
@@ -83,14 +82,13 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
       divergence_(gpu, "divergence", "gles/fluid/divergence.frag", Cells4::layout(setup_.cells),
                   grid_variant(false)),
       pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr, walls_, is_viscous()),
-      project_(make_projection(false)),
+      project_(make_projection()),
       results_(gpu, setup_) {
     if (fractions_)
         divergence_cut_.emplace(gpu, "divergence cut", "gles/fluid/divergence.frag",
                                 Cells4::layout(setup_.cells), grid_variant(true));
     if (is_viscous()) {
         viscosity_.emplace(gpu, setup_, walls_);
-        predict_.emplace(make_projection(true));
         add_pressure_.emplace(gpu, "add pressure", "gles/fluid/add_pressure.frag",
                               Cells4::layout(setup_.cells));
     }
@@ -191,7 +189,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     if (fractions_) {
         Gpu::Stage stage(gpu_, "voxelise");
         fractions_->update(body_uniforms_, boxes_);  // a, where the bodies are now
-        if (viscosity_) viscosity_->place(body_uniforms_, boxes_);
+        if (viscosity_) viscosity_->place(body_uniforms_, boxes_, fractions_->level(0));
     }
     time_s_ += dt_s;
     {
@@ -214,7 +212,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     }
     {
         Gpu::Stage stage(gpu_, "project");
-        u_ = project(project_, u_star, viscosity_ ? increment_ : phi_, 1.0f);  // u = u* - grad phi
+        u_ = project(u_star, viscosity_ ? increment_ : phi_, 1.0f);  // u = u* - grad phi
     }
     before_ = bodies;
     ++step_;
@@ -223,7 +221,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
         std::optional<Traction::Friction> friction;
         if (viscosity_)
             friction.emplace(
-                Traction::Friction{diffused_, viscosity_->distances(), diffusion_number(setup_, dt_s_)});
+                Traction::Friction{diffused_, *viscosity_->grip(), diffusion_number(setup_, dt_s_)});
         traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_, results_.row(),
                         friction);  // F = int p grad(1 - a) + mu du/dn
     }
@@ -263,11 +261,11 @@ Field<Faces> CutCellFluid::add_body_forces(const Field<Faces>& u) {
 Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, const Pressure::Work& work) {
     // No pressure yet: without one the viscous step would take a fluid held by gravity for one that falls.
     if (step_ == 0) phi_ = pressure_.solve(divergence(u), work);
-    const Field<Faces> predicted = project(*predict_, u, phi_, work.guess_scale);
+    const Field<Faces> predicted = project(u, phi_, work.guess_scale);
     // The last step's result is a better guess than this step's right-hand side: at rest in a steady flow it is the
     // solution, whatever the cycles leave.
     return viscosity_->diffuse(step_ == 0 ? predicted : diffused_, predicted, dt_s_,
-                               setup_.solver.viscous_cycles, body_uniforms_, walls_.time(time_s_));
+                               setup_.solver.viscous_cycles, walls_.time(time_s_));
 }
 
 Field<Cells4> CutCellFluid::solve_pressure(const Field<Cells4>& b, const Pressure::Work& work) {
@@ -302,7 +300,6 @@ Field<Faces> CutCellFluid::drive_sources(Field<Faces> u) {
 void CutCellFluid::add_solids(std::vector<Input>& inputs, std::vector<Uniform>& uniforms) const {
     const FaceFractions& a = fractions_->level(0);
     inputs.insert(inputs.end(), {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
-    if (viscosity_) inputs.push_back({"distances", &viscosity_->distances().texture()});
     inputs.insert(inputs.end(), body_uniforms_.inputs().begin(), body_uniforms_.inputs().end());
     const std::vector<Uniform> of_bodies = body_uniforms_.uniforms();
     uniforms.insert(uniforms.end(), of_bodies.begin(), of_bodies.end());
@@ -320,17 +317,16 @@ Field<Cells4> CutCellFluid::divergence(const Field<Faces>& u) {
     return b;
 }
 
-Field<Faces> CutCellFluid::project(Projection& projection, const Field<Faces>& u, const Field<Cells4>& phi,
-                                   float scale) {
+Field<Faces> CutCellFluid::project(const Field<Faces>& u, const Field<Cells4>& phi, float scale) {
     Field<Faces> next(gpu_, setup_.cells, Format::RGBA32F);
     std::vector<Input> inputs{{"velocity", &u.texture()}, {"phi", &phi.texture()}};
     std::vector<Uniform> uniforms{{"scale", scale}, walls_.time(time_s_)};
-    projection.plain.draw(inputs, uniforms, {&next.texture()});
+    project_.plain.draw(inputs, uniforms, {&next.texture()});
     if (fractions_) {
         add_solids(inputs, uniforms);
-        projection.cut->draw(inputs, uniforms, {&next.texture()}, Region(boxes_));
+        project_.cut->draw(inputs, uniforms, {&next.texture()}, Region(boxes_));
     }
-    projection.walls.draw(inputs, uniforms, {&next.texture()}, upper_walls(setup_.cells));
+    project_.walls.draw(inputs, uniforms, {&next.texture()}, upper_walls(setup_.cells));
     return next;
 }
 

@@ -34,7 +34,7 @@ class CutCellFluid final : public Fluid {
         std::optional<Pass> cut;
         Pass walls;
     };
-    Projection make_projection(bool predicts);
+    Projection make_projection();
     /// What the passes between faces and cells are compiled with.
     Variant grid_variant(bool cut) const;
 
@@ -49,8 +49,7 @@ class CutCellFluid final : public Fluid {
     Field<Faces> diffuse(const Field<Faces>& u, const Pressure::Work& work);
     Field<Cells4> divergence(const Field<Faces>& u);
     Field<Cells4> solve_pressure(const Field<Cells4>& b, const Pressure::Work& work);
-    Field<Faces> project(Projection& projection, const Field<Faces>& u, const Field<Cells4>& phi,
-                         float scale);
+    Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale);
     /// What the viscous term's links leave out of the torque.
     std::vector<glm::dvec3> turning_torque(const std::vector<BodyState>& bodies) const;
     void diagnose(const Field<Cells4>& before);
@@ -82,7 +81,6 @@ class CutCellFluid final : public Fluid {
     Pressure pressure_;
     Projection project_;
     std::optional<ViscousTerm> viscosity_;
-    std::optional<Projection> predict_;
     std::optional<Pass> add_pressure_;
     std::optional<Traction> traction_;
     std::optional<Pass> diagnose_;

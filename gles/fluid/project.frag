@@ -3,25 +3,15 @@
 // reads   velocity    RGBA32F  Faces (nx+1, ny+1, nz+1)    [m/s]
 // reads   phi         RGBA32F  Cells4 (nx, ny, nz)         [m/s]
 // reads   ax, ay, az  RGBA32F  Faces4                      variant CUT
-// reads   distances   RGBA32F  Faces                       [cells]   variants CUT and PREDICT together
 // writes  u           RGBA32F  Faces                       [m/s]
-// fetches 5, CUT 8, WALLS 15, CUT+WALLS 24, CUT+PREDICT 6, CUT+WALLS+PREDICT 18
+// fetches 5, CUT 8, WALLS 15, CUT+WALLS 24
 //
 // Variants: plain away from solids; CUT near them; WALLS for the layers at the upper walls, where components that own no
-// face there repeat their neighbour (velocity.glsl); THROUGH where walls let fluid through (walls.h). PREDICT is the step
-// before the viscous one: phi is the last step's times `scale`, and the fluid sticks to a body wherever a face's centre is in it.
+// face there repeat their neighbour (velocity.glsl); THROUGH where walls let fluid through (walls.h).
 uniform sampler2D velocity, phi;
-#ifdef PREDICT
-uniform float scale;
-#else
-const float scale = 1.0;
-#endif
+uniform float scale;  // of phi: the last step's, when it serves for this one
 #ifdef CUT
-#ifdef PREDICT
-uniform sampler2D distances;
-#else
 uniform sampler2D ax, ay, az;
-#endif
 #endif
 
 out vec4 result;
@@ -38,13 +28,9 @@ float potential(ivec3 c) {
 #ifdef CUT
 // 1 where a component is the body's.
 vec3 solid_faces(ivec3 c) {
-#ifdef PREDICT
-    return vec3(lessThanEqual(at(distances, FACES, c).xyz, vec3(0.0)));
-#else
     ivec3 slab = ivec3(c.xy, c.z >> 2);
     vec3 a = vec3(lane(at(ax, FRACTION, slab), c.z), lane(at(ay, FRACTION, slab), c.z), lane(at(az, FRACTION, slab), c.z));
     return vec3(lessThanEqual(a, vec3(0.0)));
-#endif
 }
 #endif
 

@@ -2,12 +2,12 @@
 //
 // reads   velocity    RGBA32F  Faces (nx+1, ny+1, nz+1)   [m/s]
 // reads   correction  RGBA32F  Faces of the COARSE grid   [m/s]
-// reads   distances   RGBA32F  Faces                      [cells]   variant CUT: faces in bodies stay as they are
+// reads   shares      RGBA32F  Faces                      of fluid   variant CUT: faces in bodies stay as they are
 // writes  u           RGBA32F  Faces                      [m/s]
 // fetches 7, CUT 8
 uniform sampler2D velocity, correction;
 #ifdef CUT
-uniform sampler2D distances;
+uniform sampler2D shares;
 #endif
 
 out vec4 result;
@@ -30,7 +30,7 @@ void main() {
     for (int axis = 0; axis < 3; ++axis)
         if (c[axis] >= CELLS[axis]) moves *= vec3(equal(ivec3(axis), ivec3(0, 1, 2)));
 #ifdef CUT
-    moves *= vec3(greaterThan(at(distances, FACES, c).xyz, vec3(0.0)));
+    moves *= vec3(greaterThan(at(shares, FACES, c).xyz, vec3(0.0)));
 #endif
     result = at(velocity, FACES, c);
     result.x += moves.x * sample_linear(correction, COARSE, coarse_position(c, vec3(1.0, 0.0, 0.0))).x;

@@ -1,10 +1,10 @@
-// viscous_smooth.frag     u += omega (rhs - u + lambda sum w (u_nb - u)) / (1 + lambda sum w)      weighted Jacobi
+// viscous_smooth.frag     u += omega (v (rhs - u) + lambda sum w (u_nb - u)) / (v + lambda sum w)      weighted Jacobi
 //
 // reads   velocity    RGBA32F  Faces (nx+1, ny+1, nz+1)   [m/s]     not by variant FROM_ZERO, which starts from u = 0
 // reads   rhs         RGBA32F  Faces                      [m/s]
-// reads   distances   RGBA32F  Faces                      [cells]   variant CUT
+// reads   shares, grips, surface   RGBA32F  Faces         v, w of bodies, [m/s]   variant CUT
 // writes  u           RGBA32F  Faces                      [m/s]     on walls and in bodies what rhs says
-// fetches 8, CUT 15, FROM_ZERO 1, CUT+FROM_ZERO 8
+// fetches 8, CUT 17, FROM_ZERO 1, CUT+FROM_ZERO 9
 #include "viscous.glsl"
 
 uniform sampler2D velocity, rhs;
@@ -14,14 +14,14 @@ out vec4 result;
 
 void main() {
     ivec3 c = cell_here(FACES);
-    vec3 weights, u, fixed_at;
-    vec3 term = viscous_term(velocity, c, weights, u, fixed_at);
+    vec3 weights, u, share, fixed_at;
+    vec3 term = viscous_term(velocity, c, weights, u, share, fixed_at);
 #ifdef FROM_ZERO
     term = vec3(0.0);
     u = vec3(0.0);
 #endif
     vec3 r = at(rhs, FACES, c).xyz;
-    vec3 next = u + omega * (r - u + lambda * term) / (1.0 + lambda * weights);
+    vec3 next = u + omega * (share * (r - u) + lambda * term) / max(share + lambda * weights, 1e-20);
 #ifdef CORRECTION
     result = vec4((1.0 - fixed_at) * next, 0.0);
 #else

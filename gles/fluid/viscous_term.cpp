@@ -28,17 +28,11 @@ float ViscousTerm::Equation::on(std::size_t level) const {
 
 ViscousTerm::ViscousTerm(Gpu& gpu, const FluidSetup& setup, const Walls& walls) : gpu_(&gpu), setup_(&setup) {
     const std::vector<glm::ivec3> grids = multigrid_levels(setup.cells);
-    for (const glm::ivec3& n : grids) levels_.push_back({n, {}, {}, {}, {}, {}, {}, {}, {}});
+    for (const glm::ivec3& n : grids) levels_.push_back({n, {}, {}, {}, {}, {}});
+    if (!setup.bodies.empty()) grip_.emplace(gpu, grids, setup.bodies);
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         Level& level = levels_[l];
         const AtlasLayout here = Faces::layout(level.cells);
-        if (!setup.bodies.empty()) {
-            level.distances.emplace(gpu, level.cells, Format::RGBA32F);
-            level.draw_distances.emplace(
-                gpu, fmt::format("distances {}", l), "gles/body/distances.frag", here,
-                Variant{.defines = {{"SCALE", fmt::format("{:.1f}", std::exp2(static_cast<double>(l)))}},
-                        .declarations = shape_declarations(setup.bodies)});
-        }
         level.smooth.emplace(make(gpu, "viscous smooth", "gles/fluid/viscous_smooth.frag", l, {}, walls));
         if (l > 0)
             level.first_smooth.emplace(make(gpu, "viscous smooth from zero", "gles/fluid/viscous_smooth.frag",
@@ -64,28 +58,14 @@ ViscousTerm::Split ViscousTerm::make(Gpu& gpu, const char* name, const char* sha
     walls.declare(variant, glm::vec3(setup_->cells) / std::exp2(static_cast<float>(l)) - glm::vec3(n - 1));
     Variant cut = variant;
     cut.defines.emplace_back("CUT", "");
-    cut.declarations += shape_declarations(setup_->bodies);
     Split split{Pass(gpu, fmt::format("{} {}", name, l), shader, Faces::layout(n), variant), {}};
-    if (!setup_->bodies.empty())
-        split.cut.emplace(gpu, fmt::format("{} {} cut", name, l), shader, Faces::layout(n), cut);
+    if (grip_) split.cut.emplace(gpu, fmt::format("{} {} cut", name, l), shader, Faces::layout(n), cut);
     return split;
 }
 
-void ViscousTerm::place(const BodyUniforms& bodies, const std::vector<Box>& boxes) {
-    if (setup_->bodies.empty()) return;
-    std::vector<Box> here = boxes, before = before_;
-    for (Level& level : levels_) {
-        level.boxes.clear();
-        for (const Box& box : here) level.boxes.push_back(box.faces());
-        std::vector<Box> touched = level.boxes;
-        for (const Box& box : before) touched.push_back(box.faces());
-        level.draw_distances->draw(bodies.inputs(), bodies.uniforms(), {&level.distances->texture()},
-                                   placed_ ? Region(touched) : Region::everything());
-        for (Box& box : here) box = box.coarsen().grow(1).intersect({glm::ivec3(0), level.cells});
-        for (Box& box : before) box = box.coarsen().grow(1).intersect({glm::ivec3(0), level.cells});
-    }
-    before_ = boxes;
-    placed_ = true;
+void ViscousTerm::place(const BodyUniforms& bodies, const std::vector<Box>& boxes,
+                        const FaceFractions& fractions) {
+    if (grip_) grip_->update(bodies, boxes, fractions);
 }
 
 void ViscousTerm::draw(Split& pass, std::size_t l, std::vector<Input> inputs, std::vector<Uniform> uniforms,
@@ -94,8 +74,10 @@ void ViscousTerm::draw(Split& pass, std::size_t l, std::vector<Input> inputs, st
     uniforms.push_back({"lambda", equation.on(l)});
     pass.plain.draw(inputs, uniforms, {&out});
     if (!pass.cut) return;
-    inputs.push_back({"distances", &levels_[l].distances->texture()});
-    pass.cut->draw(inputs, uniforms, {&out}, Region(levels_[l].boxes));
+    const Grip::Level& grip = grip_->level(l);
+    inputs.insert(inputs.end(), {{"shares", &grip.shares.texture()}, {"grips", &grip.grips.texture()}});
+    if (l == 0) inputs.push_back({"surface", &grip_->surface().texture()});
+    pass.cut->draw(inputs, uniforms, {&out}, Region(grip_->boxes(l)));
 }
 
 Field<Faces> ViscousTerm::smooth(std::size_t l, const Field<Faces>* u, const Field<Faces>& rhs, float omega,
@@ -136,9 +118,8 @@ Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, const 
 }
 
 Field<Faces> ViscousTerm::diffuse(const Field<Faces>& guess, const Field<Faces>& u_star, double dt_s,
-                                  int cycles, const BodyUniforms& bodies, const Uniform& wall_time) {
-    Equation equation{diffusion_number(*setup_, dt_s), 1, bodies.uniforms()};
-    equation.uniforms.push_back(wall_time);
+                                  int cycles, const Uniform& wall_time) {
+    Equation equation{diffusion_number(*setup_, dt_s), 1, {wall_time}};
     while (equation.levels < levels_.size() && equation.on(equation.levels) > kLeastLambda) ++equation.levels;
     Field<Faces> u = cycle(0, &guess, u_star, equation);
     for (int i = 1; i < cycles; ++i) u = cycle(0, &u, u_star, equation);

@@ -2,10 +2,8 @@
 #include <optional>
 #include <vector>
 
-#include "gles/body/shapes.h"
-#include "gles/field.h"
+#include "gles/body/grip.h"
 #include "gles/fluid/walls.h"
-#include "gles/pass.h"
 
 namespace eddy::gles {
 
@@ -14,19 +12,20 @@ namespace eddy::gles {
 /// grid, and to walls that say so.
 ///
 /// A component's coarse faces are every second fine one along its own axis; the equation is written anew on
-/// each grid, for the grid's own distances to the bodies. Grids so coarse that neighbours hardly exchange
+/// each grid, for the grid's own distances to the bodies. Near bodies it is weighted with the fluid's share of each
+/// face's cell, the same that the pressure equation has: then the two steps together cannot gain energy. Grids so coarse that neighbours hardly exchange
 /// momentum in a step (nu dt / h^2 < 1/8) are left out.
 class ViscousTerm {
   public:
     ViscousTerm(Gpu& gpu, const FluidSetup& setup, const Walls& walls);
 
-    /// Draws the distances to the bodies where they are now; `boxes` hold each body and two cells around it.
-    void place(const BodyUniforms& bodies, const std::vector<Box>& boxes);
+    /// Draws where the bodies hold the fluid now; `boxes` hold each body and two cells around it.
+    void place(const BodyUniforms& bodies, const std::vector<Box>& boxes, const FaceFractions& fractions);
     /// u after `cycles` V-cycles from a guess; u* also holds the velocities on walls and in bodies.
     Field<Faces> diffuse(const Field<Faces>& guess, const Field<Faces>& u_star, double dt_s, int cycles,
-                         const BodyUniforms& bodies, const Uniform& wall_time);
-    /// Signed distance of each face to the nearest body [cells]; far away some value above 1.
-    const Field<Faces>& distances() const { return *levels_[0].distances; }
+                         const Uniform& wall_time);
+    /// Where the bodies hold the fluid; null without bodies.
+    const Grip* grip() const { return grip_ ? &*grip_ : nullptr; }
 
   private:
     /// A pass for the whole grid, and the one that knows of bodies for their boxes over it.
@@ -36,11 +35,8 @@ class ViscousTerm {
     };
     struct Level {
         glm::ivec3 cells;
-        std::optional<Field<Faces>> distances;
-        std::optional<Pass> draw_distances;
         std::optional<Split> first_smooth, smooth, residual, prolong;
         std::optional<Pass> restrict_to;  ///< this level, from the finer one
-        std::vector<Box> boxes;
     };
     struct Equation {
         float lambda;  ///< nu dt / h^2 on the finest grid
@@ -62,8 +58,7 @@ class ViscousTerm {
     Gpu* gpu_;
     const FluidSetup* setup_;
     std::vector<Level> levels_;
-    std::vector<Box> before_;
-    bool placed_ = false;
+    std::optional<Grip> grip_;
 };
 
 }  // namespace eddy::gles

@@ -33,7 +33,10 @@ class ViscousStep : public GlTest {
         if (radius > 0.0) {
             const BodyState state{.centre_m = 0.5 * glm::dvec3(n) + 0.1};
             t->bodies.set({state});
-            t->term.place(t->bodies, {body_box(s.bodies[0], state, 1.0, n)});
+            const std::vector<Box> boxes{body_box(s.bodies[0], state, 1.0, n)};
+            Fractions fractions(gpu, {n}, s.bodies);
+            fractions.update(t->bodies, boxes);
+            t->term.place(t->bodies, boxes, fractions.level(0));
         }
         return t;
     }
@@ -43,7 +46,7 @@ class ViscousStep : public GlTest {
         return field;
     }
     std::vector<glm::vec3> solve(Tank& t, const Field<Faces>& guess, const Field<Faces>& u, int cycles) {
-        const Field<Faces> result = t.term.diffuse(guess, u, 1.0, cycles, t.bodies, t.walls.time(0.0));
+        const Field<Faces> result = t.term.diffuse(guess, u, 1.0, cycles, t.walls.time(0.0));
         return unpack_vectors(result.texture().download(), result.layout());
     }
     /// Values of f(component, x, y, z) on the faces of the tank; 0 on its walls.
