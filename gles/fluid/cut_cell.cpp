@@ -95,7 +95,10 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
     for (const BodySetup& body : setup_.bodies)
         volumes_m3_.push_back((body.inside_out ? -1.0 : 1.0) * mass_properties(body.shape).volume_m3);
     if (Results::measures(setup_)) traction_.emplace(gpu, setup_, Results::width(setup_));
-    if (setup_.smoke) advect_smoke_.emplace(gpu, setup_, walls_);
+    if (setup_.smoke)
+        advect_smoke_.emplace(gpu, setup_,
+                              ScalarSetup{"smoke", &SourceSetup::smoke_per_s, setup_.smoke->dissipation_1_s},
+                              walls_);
     for (const SourceSetup& source : setup_.sources)
         if (source.velocity_m_s && !drive_)
             drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", Faces::layout(setup_.cells),

@@ -61,7 +61,7 @@ class CutCellFluid final : public Fluid {
     Field<Cells4> phi_;                  // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
     Field<Cells4> increment_;            // of phi in a viscous step              m/s       (nx, ny, nz)
     Field<Faces> diffused_;              // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)
-    std::optional<Field<Cells>> smoke_;  // density, SmokeTransport              1         (nx, ny, nz)
+    std::optional<Field<Cells>> smoke_;  // density, ScalarTransport             1         (nx, ny, nz)
     std::vector<double> volumes_m3_;     // of the bodies
     std::vector<BodyState> before_;      // bodies at the end of the last step
     std::vector<Box> boxes_;             // cells near each body, this step
@@ -72,7 +72,7 @@ class CutCellFluid final : public Fluid {
     // --- passes the scene called for
     Walls walls_;
     VelocityTransport advect_;
-    std::optional<SmokeTransport> advect_smoke_;
+    std::optional<ScalarTransport> advect_smoke_;
     std::optional<Pass> drive_, vorticity_, confinement_, body_forces_;
     std::optional<Fractions> fractions_;
     BodyUniforms body_uniforms_;

@@ -1,9 +1,9 @@
-// sources.glsl     Smoke that flows from the sources into the cell around x [cells] during this step; 0 without SOURCES.
+// sources.glsl     What flows from the sources into the cell around x [cells] during this step; 0 without SOURCES.
 //
 // Variant SOURCES (their number) is drawn only where they are.
 #ifdef SOURCES
 uniform vec4 source_ball[SOURCES];   // centre, radius  [cells]
-uniform vec3 source_gain[SOURCES];   // x: dt q  [1]
+uniform vec3 source_gain[SOURCES];   // x: dt q
 
 float from_sources(vec3 x) {
     float gain = 0.0;

@@ -44,54 +44,55 @@ Field<Faces> VelocityTransport::operator()(const Field<Faces>& u, double dt_s, c
     return corrected;
 }
 
-SmokeTransport::SmokeTransport(Gpu& gpu, const FluidSetup& setup, const Walls& walls)
-    : gpu_(&gpu), setup_(setup) {
+ScalarTransport::ScalarTransport(Gpu& gpu, const FluidSetup& setup, const ScalarSetup& scalar,
+                                 const Walls& walls)
+    : gpu_(&gpu), cell_m_(setup.cell_m), scalar_(scalar) {
+    const AtlasLayout cells = Cells::layout(setup.cells);
     Variant variant{.layouts = {{"FACES", Faces::layout(setup.cells)}}};
     walls.declare(variant);
-    forward_.emplace(gpu, "advect smoke", "gles/fluid/advect_smoke.frag", Cells::layout(setup.cells),
-                     variant);
+    Variant last = variant;
+    if (scalar.fading_1_s > 0.0) last.defines.emplace_back("FADES", "");
+    const std::string name = scalar.name;
     const bool corrects = setup.solver.advection == Advection::MacCormack;
-    const char* last_shader = corrects ? "gles/fluid/maccormack_smoke.frag" : "gles/fluid/advect_smoke.frag";
-    if (corrects) correct_.emplace(gpu, "correct smoke", last_shader, Cells::layout(setup.cells), variant);
+    const char* last_shader =
+        corrects ? "gles/fluid/maccormack_scalar.frag" : "gles/fluid/advect_scalar.frag";
+    forward_.emplace(gpu, "advect " + name, "gles/fluid/advect_scalar.frag", cells,
+                     corrects ? variant : last);
+    if (corrects) correct_.emplace(gpu, "correct " + name, last_shader, cells, last);
     for (const SourceSetup& source : setup.sources) {
-        if (source.smoke_per_s <= 0.0) continue;
+        if (source.*scalar.from_source == 0.0) continue;
+        sources_.push_back(source);
         source_balls_.push_back(ball_cells(source, setup.cell_m));
         source_boxes_.push_back(ball_box(source_balls_.back(), setup.cells));
     }
-    if (source_balls_.empty()) return;
-    variant.defines.emplace_back("SOURCES", fmt::format("{}", source_balls_.size()));
-    with_sources_.emplace(gpu, "smoke sources", last_shader, Cells::layout(setup.cells), variant);
+    if (sources_.empty()) return;
+    last.defines.emplace_back("SOURCES", fmt::format("{}", sources_.size()));
+    with_sources_.emplace(gpu, name + " sources", last_shader, cells, last);
 }
 
-Field<Cells> SmokeTransport::operator()(const Field<Cells>& smoke, const Field<Faces>& u, double time_s,
-                                        double dt_s, const Uniform& wall_time) {
-    const Uniform dt_h{"dt_h", static_cast<float>(dt_s / setup_.cell_m)};
-    Uniform remains{"remains", static_cast<float>(std::exp(-setup_.smoke->dissipation_1_s * dt_s))};
-    std::vector<glm::vec3> gains;
-    for (const SourceSetup& source : setup_.sources)
-        if (source.smoke_per_s > 0.0)
-            gains.emplace_back(is_running(source, time_s) ? dt_s * source.smoke_per_s : 0.0, 0.0, 0.0);
-
-    Field<Cells> next(*gpu_, smoke.cells(), Format::R32F);
-    if (!correct_) {
-        const std::vector<Input> inputs{{"velocity", &u.texture()}, {"smoke", &smoke.texture()}};
-        forward_->draw(inputs, {dt_h, remains, wall_time}, {&next.texture()});
-        if (with_sources_)
-            with_sources_->draw(
-                inputs, {dt_h, remains, wall_time, {"source_ball", source_balls_}, {"source_gain", gains}},
-                {&next.texture()}, Region(source_boxes_));
-        return next;
+Field<Cells> ScalarTransport::operator()(const Field<Cells>& s, const Field<Faces>& u, double time_s,
+                                         double dt_s, const Uniform& wall_time) {
+    std::vector<Input> inputs{{"velocity", &u.texture()}, {"scalar", &s.texture()}};
+    std::vector<Uniform> uniforms{{"dt_h", static_cast<float>(dt_s / cell_m_)},
+                                  {"remains", static_cast<float>(std::exp(-scalar_.fading_1_s * dt_s))},
+                                  wall_time};
+    Field<Cells> next(*gpu_, s.cells(), Format::R32F);
+    forward_->draw(inputs, uniforms, {&next.texture()});
+    Field<Cells> forward;
+    if (correct_) {
+        forward = std::move(next);
+        next = Field<Cells>(*gpu_, s.cells(), Format::R32F);
+        inputs.push_back({"forward", &forward.texture()});
+        correct_->draw(inputs, uniforms, {&next.texture()});
     }
-    Field<Cells> forward(*gpu_, smoke.cells(), Format::R32F);
-    forward_->draw({{"velocity", &u.texture()}, {"smoke", &smoke.texture()}},
-                   {dt_h, {"remains", 1.0f}, wall_time}, {&forward.texture()});
-    const std::vector<Input> inputs{
-        {"velocity", &u.texture()}, {"smoke", &smoke.texture()}, {"forward", &forward.texture()}};
-    correct_->draw(inputs, {dt_h, remains, wall_time}, {&next.texture()});
-    if (with_sources_)
-        with_sources_->draw(
-            inputs, {dt_h, remains, wall_time, {"source_ball", source_balls_}, {"source_gain", gains}},
-            {&next.texture()}, Region(source_boxes_));
+    if (with_sources_) {
+        std::vector<glm::vec3> gains;
+        for (const SourceSetup& source : sources_)
+            gains.emplace_back(is_running(source, time_s) ? dt_s * source.*scalar_.from_source : 0.0, 0.0,
+                               0.0);
+        uniforms.insert(uniforms.end(), {{"source_ball", source_balls_}, {"source_gain", gains}});
+        with_sources_->draw(inputs, uniforms, {&next.texture()}, Region(source_boxes_));
+    }
     return next;
 }
 

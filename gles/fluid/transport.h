@@ -20,17 +20,26 @@ class VelocityTransport {
     std::optional<Pass> forward_, correct_;
 };
 
-/// Carries smoke with a velocity, lets it fade, and adds what the sources give.
-class SmokeTransport {
+/// A quantity with one value in each cell that the flow carries.
+struct ScalarSetup {
+    const char* name;                  ///< of its passes
+    double SourceSetup::*from_source;  ///< how much of it a source adds per second
+    double fading_1_s = 0.0;           ///< exponential decay rate
+};
+
+/// Carries a scalar with a velocity, lets it fade, and adds what the sources give.
+class ScalarTransport {
   public:
-    SmokeTransport(Gpu& gpu, const FluidSetup& setup, const Walls& walls);
+    ScalarTransport(Gpu& gpu, const FluidSetup& setup, const ScalarSetup& scalar, const Walls& walls);
     /// `time_s`: when the step begins; decides which sources run.
-    Field<Cells> operator()(const Field<Cells>& smoke, const Field<Faces>& u, double time_s, double dt_s,
+    Field<Cells> operator()(const Field<Cells>& s, const Field<Faces>& u, double time_s, double dt_s,
                             const Uniform& wall_time);
 
   private:
     Gpu* gpu_;
-    FluidSetup setup_;
+    double cell_m_;
+    ScalarSetup scalar_;
+    std::vector<SourceSetup> sources_;  ///< those that give any of it
     std::vector<Box> source_boxes_;
     std::vector<glm::vec4> source_balls_;
     std::optional<Pass> forward_, correct_;
