@@ -99,6 +99,7 @@ class FlowCheck {
         not_yang("fluid.gravity_m_s2", scene_.fluid.gravity_m_s2 != glm::dvec3(0.0), another);
         not_yang("vorticity_confinement", scene_.vorticity_confinement.has_value(), another);
         not_yang("forcing", scene_.forcing.has_value(), another);
+        not_yang("temperature", scene_.temperature.has_value(), another);
         not_yang("smoke.initial", scene_.smoke && scene_.smoke->initial != Formula(), another);
         const Scene::Walls& w = scene_.tank.walls;
         for (const Scene::Wall* wall : {&w.x_low, &w.x_high, &w.y_low, &w.y_high, &w.z_low, &w.z_high})

@@ -125,12 +125,21 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
             return density.evaluate(x_m.x, x_m.y, x_m.z, 0.0);
         };
     }
+    if (scene.temperature) {
+        gles::TemperatureSetup& heat = s.temperature.emplace();
+        heat.expansion_1_k = scene.temperature->expansion_1_k;
+        heat.diffusivity_m2_s = scene.temperature->diffusivity_m2_s;
+        heat.at_start_k = [excess = scene.temperature->initial_k](const glm::dvec3& x_m) {
+            return excess.evaluate(x_m.x, x_m.y, x_m.z, 0.0);
+        };
+    }
     for (const Scene::Source& source : scene.sources) {
         gles::SourceSetup& to = s.sources.emplace_back();
         to.centre_m = source.centre_m;
         to.radius_m = source.radius_m;
         to.velocity_m_s = source.velocity_m_s;
         to.smoke_per_s = source.smoke_per_s.value_or(0.0);
+        to.temperature_k_per_s = source.temperature_k_per_s.value_or(0.0);
         to.start_s = source.start_s;
         if (source.stop_s) to.stop_s = *source.stop_s;
     }

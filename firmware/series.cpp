@@ -8,24 +8,30 @@
 
 namespace eddy {
 
-Series::Series(std::filesystem::path file, std::vector<std::string> bodies)
+Series::Series(std::filesystem::path file, std::vector<std::string> bodies,
+               const std::vector<std::string>& more)
     : file_(std::move(file)), beside_(file_.string() + ".new"), bodies_(std::move(bodies)), out_(beside_) {
     if (!out_)
         throw std::runtime_error(
             fmt::format("{}: cannot be created: {}", file_.string(), std::strerror(errno)));
     out_ << "t_s,body,force_x_n,force_y_n,force_z_n,torque_x_nm,torque_y_nm,torque_z_nm,kinetic_energy_j,"
-            "divergence_max_1_s,pressure_residual,smoke_total,step_ms\n";
+            "divergence_max_1_s,pressure_residual,smoke_total,step_ms";
+    for (const std::string& column : more) out_ << ',' << column;
+    out_ << '\n';
 }
 
-void Series::add(double time_s, const gles::StepResult& result, double step_ms) {
+void Series::add(double time_s, const gles::StepResult& result, double step_ms,
+                 const std::vector<double>& more) {
     const gles::Diagnostics d = result.diagnostics.value_or(gles::Diagnostics{});
     const double residual =
         d.divergence_before_1_s > 0.0 ? d.divergence_max_1_s / d.divergence_before_1_s : 0.0;
     const auto row = [&](std::string_view body, const gles::Load& load) {
         out_ << fmt::format(
-            "{:.6f},{},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.6e},{:.6e},{:.9e},{:.3f}\n",
-            time_s, body, load.force_n.x, load.force_n.y, load.force_n.z, load.torque_nm.x, load.torque_nm.y,
+            "{:.6f},{},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.6e},{:.6e},{:.9e},{:.3f}", time_s,
+            body, load.force_n.x, load.force_n.y, load.force_n.z, load.torque_nm.x, load.torque_nm.y,
             load.torque_nm.z, d.kinetic_energy_j, d.divergence_max_1_s, residual, d.smoke_total, step_ms);
+        for (const double value : more) out_ << fmt::format(",{:.9e}", value);
+        out_ << '\n';
     };
     if (bodies_.empty()) row("-", {});
     for (std::size_t i = 0; i < bodies_.size(); ++i) row(bodies_[i], result.loads[i]);

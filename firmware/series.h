@@ -12,9 +12,10 @@ namespace eddy {
 /// frame.
 class Series {
   public:
-    /// Throws std::runtime_error if the file cannot be written.
-    Series(std::filesystem::path file, std::vector<std::string> bodies);
-    void add(double time_s, const gles::StepResult& result, double step_ms);
+    /// `more`: columns after those that every series has. Throws std::runtime_error if the file cannot be written.
+    Series(std::filesystem::path file, std::vector<std::string> bodies, const std::vector<std::string>& more);
+    /// `more`: a value for each of its columns; the same in the row of each body.
+    void add(double time_s, const gles::StepResult& result, double step_ms, const std::vector<double>& more);
     /// Puts the file in its place. Throws std::runtime_error if the disk did not take it all.
     void finish();
 

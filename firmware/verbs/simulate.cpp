@@ -64,6 +64,7 @@ std::string to_json(const Summary& s, const LoadedScene& loaded, const gles::Gpu
         j["kinetic_energy_j"] = s.last.diagnostics->kinetic_energy_j;
         j["divergence_max_1_s"] = s.last.diagnostics->divergence_max_1_s;
         j["smoke_total"] = s.last.diagnostics->smoke_total;
+        if (loaded.scene.temperature) j["temperature_total_k_m3"] = s.last.diagnostics->temperature_total;
     }
     return j.dump(2) + "\n";
 }
@@ -79,9 +80,10 @@ void write_fields(const std::filesystem::path& out, const Scene& scene, const gl
         } else if (field == OutputField::Pressure) {
             write_npy(out / "pressure.npy", fluid.pressure(), {n.z, n.y, n.x});
         } else {
-            const gles::Field<gles::Cells>& smoke = *fluid.smoke();
-            write_npy(out / "smoke.npy", gles::unpack_scalars(smoke.texture().download(), smoke.layout()),
-                      {n.z, n.y, n.x});
+            const bool is_smoke = field == OutputField::Smoke;
+            const gles::Field<gles::Cells>& scalar = is_smoke ? *fluid.smoke() : *fluid.temperature();
+            write_npy(out / (is_smoke ? "smoke.npy" : "temperature.npy"),
+                      gles::unpack_scalars(scalar.texture().download(), scalar.layout()), {n.z, n.y, n.x});
         }
     }
 }
@@ -117,7 +119,10 @@ int simulate(const SimulateOptions& options) {
     if (!options.out.empty()) {
         std::vector<std::string> names;
         for (const Scene::Body& body : scene.bodies) names.push_back(body.name);
-        if (scene.outputs.series) series.emplace(std::filesystem::path(options.out) / "series.csv", names);
+        std::vector<std::string> more;
+        if (scene.temperature) more.emplace_back("temperature_total_k_m3");
+        if (scene.outputs.series)
+            series.emplace(std::filesystem::path(options.out) / "series.csv", names, more);
     }
 
     Summary summary;
@@ -135,7 +140,11 @@ int simulate(const SimulateOptions& options) {
                             "tank (1/x, sqrt of a negative number), or a scene that no flow can follow",
                             n, steps));
         add_to(summary, result);
-        if (series) series->add(t, result, milliseconds_since(step_start));
+        if (series) {
+            std::vector<double> more;
+            if (scene.temperature) more.push_back(result.diagnostics->temperature_total);
+            series->add(t, result, milliseconds_since(step_start), more);
+        }
         progress.show(static_cast<double>(n), static_cast<double>(steps));
     }
     progress.finish();

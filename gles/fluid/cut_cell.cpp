@@ -16,11 +16,16 @@ bool has_weight(const FluidSetup& setup) {
     return setup.smoke && setup.smoke->weight != 0.0;
 }
 
+bool is_lifted(const FluidSetup& setup) {
+    return setup.temperature && setup.temperature->expansion_1_k != 0.0;
+}
+
 /// The body forces this scene has.
 Variant force_variant(const FluidSetup& setup) {
     Variant v;
     v.layouts.emplace_back("CELL_CENTRES", Cells::layout(setup.cells));
     if (has_weight(setup)) v.defines.emplace_back("WEIGHT", "");
+    if (is_lifted(setup)) v.defines.emplace_back("LIFT", "");
     if (setup.confinement_1_s > 0.0) v.defines.emplace_back("CONFINEMENT", "");
     if (setup.acceleration_m_s2) {
         const auto& f = setup.acceleration_m_s2->glsl;
@@ -83,6 +88,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
                   grid_variant(false)),
       pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr, walls_, is_viscous()),
       project_(make_projection()),
+      diagnosis_(gpu, setup_),
       results_(gpu, setup_) {
     if (fractions_)
         divergence_cut_.emplace(gpu, "divergence cut", "gles/fluid/divergence.frag",
@@ -95,10 +101,10 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
     for (const BodySetup& body : setup_.bodies)
         volumes_m3_.push_back((body.inside_out ? -1.0 : 1.0) * mass_properties(body.shape).volume_m3);
     if (Results::measures(setup_)) traction_.emplace(gpu, setup_, Results::width(setup_));
-    if (setup_.smoke)
-        advect_smoke_.emplace(gpu, setup_,
-                              ScalarSetup{"smoke", &SourceSetup::smoke_per_s, setup_.smoke->dissipation_1_s},
-                              walls_);
+    const Fractions* solids = fractions_ ? &*fractions_ : nullptr;
+    if (const auto smoke = Scalar::smoke(setup_)) smoke_.emplace(gpu, setup_, *smoke, walls_, solids);
+    if (const auto heat = Scalar::temperature(setup_))
+        temperature_.emplace(gpu, setup_, *heat, walls_, solids);
     for (const SourceSetup& source : setup_.sources)
         if (source.velocity_m_s && !drive_)
             drive_.emplace(gpu, "drive sources", "gles/fluid/drive.frag", Faces::layout(setup_.cells),
@@ -132,26 +138,11 @@ std::vector<glm::vec3> CutCellFluid::velocity_at_start() const {
     return u;
 }
 
-void CutCellFluid::upload_smoke_at_start() {
-    const glm::ivec3 n = setup_.cells;
-    std::vector<float> s;
-    for (int z = 0; z < n.z; ++z)
-        for (int y = 0; y < n.y; ++y)
-            for (int x = 0; x < n.x; ++x)
-                s.push_back(setup_.smoke->at_start ? static_cast<float>(setup_.smoke->at_start(
-                                                         setup_.cell_m * (glm::dvec3(x, y, z) + 0.5)))
-                                                   : 0.0f);
-    smoke_->texture().upload(pack_scalars(s, smoke_->layout()).data());
-}
-
 void CutCellFluid::reset() {
-    const glm::ivec3 n = setup_.cells;
     set_velocity(velocity_at_start());
     clear(phi_.texture());
-    if (setup_.smoke) {
-        smoke_ = Field<Cells>(gpu_, n, Format::R32F);
-        upload_smoke_at_start();
-    }
+    if (smoke_) smoke_->reset();
+    if (temperature_) temperature_->reset();
     results_.forget();
     before_.clear();
     dt_s_ = 0.0;
@@ -175,24 +166,23 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
         if (source.velocity_m_s && is_running(source, time_s_))
             work.rough.push_back(ball_box(ball_cells(source, setup_.cell_m), setup_.cells));
 
+    if (fractions_) {
+        Gpu::Stage stage(gpu_, "voxelise");
+        fractions_->update(body_uniforms_, boxes_);  // a, where the bodies are now
+        if (viscosity_) viscosity_->place(body_uniforms_, boxes_, fractions_->level(0));
+    }
     Field<Faces> u;
     {
         Gpu::Stage stage(gpu_, "advect velocity");
         u = drive_sources(advect_(u_, dt_s, walls_.time(time_s_)));  // u* = u(x - dt u)
     }
-    if (smoke_) {
-        Gpu::Stage stage(gpu_, "advect smoke");
-        smoke_ =
-            (*advect_smoke_)(*smoke_, u_, time_s_, dt_s, walls_.time(time_s_));  // s = s(x - dt u) + dt q
-    }
+    if (smoke_) smoke_->step(u_, time_s_, dt_s, walls_.time(time_s_));  // s = s(x - dt u) + dt q
+    if (temperature_)
+        temperature_->step(u_, time_s_, dt_s,
+                           walls_.time(time_s_));  // T - kappa dt lap T = T(x - dt u) + dt q
     if (body_forces_) {
         Gpu::Stage stage(gpu_, "body forces");
-        u = add_body_forces(u);  // u* += dt (g (1 + w s) + f)
-    }
-    if (fractions_) {
-        Gpu::Stage stage(gpu_, "voxelise");
-        fractions_->update(body_uniforms_, boxes_);  // a, where the bodies are now
-        if (viscosity_) viscosity_->place(body_uniforms_, boxes_, fractions_->level(0));
+        u = add_body_forces(u);  // u* += dt (g (1 + w s - beta T) + f)
     }
     time_s_ += dt_s;
     {
@@ -230,7 +220,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
     }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
-        diagnose(b);
+        diagnosis_.draw({u_, b, divergence(u_), smoke(), temperature()}, results_.row());
     }
     if (traction_ || wants_diagnosis) {
         Gpu::Stage stage(gpu_, "read back");
@@ -245,8 +235,12 @@ Field<Faces> CutCellFluid::add_body_forces(const Field<Faces>& u) {
                                   {"gravity", glm::vec3(setup_.gravity_m_s2)},
                                   {"time", static_cast<float>(time_s_ + dt_s_)}};
     if (has_weight(setup_)) {
-        inputs.push_back({"smoke", &smoke_->texture()});
+        inputs.push_back({"smoke", &smoke_->field().texture()});
         uniforms.push_back({"weight", static_cast<float>(setup_.smoke->weight)});
+    }
+    if (is_lifted(setup_)) {
+        inputs.push_back({"temperature", &temperature_->field().texture()});
+        uniforms.push_back({"expansion", static_cast<float>(setup_.temperature->expansion_1_k)});
     }
     Field<Cells> swirl;
     if (confinement_) {
@@ -342,29 +336,6 @@ std::vector<glm::dvec3> CutCellFluid::turning_torque(const std::vector<BodyState
     for (std::size_t i = 0; i < bodies.size(); ++i)
         torque.push_back(-2.0 * setup_.viscosity_pa_s * volumes_m3_[i] * bodies[i].spin_rad_s);
     return torque;
-}
-
-void CutCellFluid::diagnose(const Field<Cells4>& before) {
-    if (!diagnose_) {
-        Variant variant = grid_variant(false);
-        if (smoke_) {
-            variant.layouts.emplace_back("SMOKE_CELLS", Cells::layout(setup_.cells));
-            variant.defines.emplace_back("SMOKE", "");
-        }
-        const glm::ivec2 columns(setup_.cells.x, setup_.cells.y);
-        diagnose_.emplace(gpu_, "diagnose", "gles/fluid/diagnose.frag",
-                          AtlasLayout{{columns.x, columns.y, 1}, 1}, variant);
-        reduce_diagnosis_.emplace(gpu_, "reduce diagnosis", columns, glm::ivec2(Results::width(setup_), 1),
-                                  "vec4(1.0, 0.0, 0.0, 1.0)");
-    }
-    const Field<Cells4> after = divergence(u_);
-    const TexturePool::Lease columns =
-        gpu_.textures().lease({setup_.cells.x, setup_.cells.y}, Format::RGBA32F);
-    std::vector<Input> inputs{
-        {"velocity", &u_.texture()}, {"divergence", &after.texture()}, {"before", &before.texture()}};
-    if (smoke_) inputs.push_back({"smoke", &smoke_->texture()});
-    diagnose_->draw(inputs, {}, {&*columns});
-    reduce_diagnosis_->draw(*columns, results_.row(), Results::diagnosis_texel(setup_));
 }
 
 std::vector<glm::vec3> CutCellFluid::velocity() const {

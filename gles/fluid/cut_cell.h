@@ -3,10 +3,11 @@
 
 #include "gles/body/fractions.h"
 #include "gles/body/traction.h"
+#include "gles/fluid/diagnosis.h"
 #include "gles/fluid/fluid.h"
 #include "gles/fluid/pressure.h"
 #include "gles/fluid/results.h"
-#include "gles/fluid/transport.h"
+#include "gles/fluid/scalar.h"
 #include "gles/fluid/viscous_term.h"
 #include "gles/fluid/walls.h"
 
@@ -22,7 +23,10 @@ class CutCellFluid final : public Fluid {
     std::optional<StepResult> result(bool wait) override { return results_.take(wait); }
     long steps() const override { return step_; }
     void reset() override;
-    const Field<Cells>* smoke() const override { return smoke_ ? &*smoke_ : nullptr; }
+    const Field<Cells>* smoke() const override { return smoke_ ? &smoke_->field() : nullptr; }
+    const Field<Cells>* temperature() const override {
+        return temperature_ ? &temperature_->field() : nullptr;
+    }
     std::vector<glm::vec3> velocity() const override;
     std::vector<float> pressure() const override;
     void set_velocity(const std::vector<glm::vec3>& u) override;
@@ -39,7 +43,6 @@ class CutCellFluid final : public Fluid {
     Variant grid_variant(bool cut) const;
 
     std::vector<glm::vec3> velocity_at_start() const;
-    void upload_smoke_at_start();
     std::vector<BodyMotion> motions(const std::vector<BodyState>& bodies) const;
     Field<Faces> drive_sources(Field<Faces> u);
     Field<Faces> add_body_forces(const Field<Faces>& u);
@@ -52,19 +55,17 @@ class CutCellFluid final : public Fluid {
     Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale);
     /// What the viscous term's links leave out of the torque.
     std::vector<glm::dvec3> turning_torque(const std::vector<BodyState>& bodies) const;
-    void diagnose(const Field<Cells4>& before);
     bool is_viscous() const { return setup_.viscosity_pa_s > 0.0; }
 
     // --- state, and who writes it                                             unit       cells
     Gpu& gpu_;
-    Field<Faces> u_;                     // velocity, project                    m/s       (nx+1, ny+1, nz+1)
-    Field<Cells4> phi_;                  // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
-    Field<Cells4> increment_;            // of phi in a viscous step              m/s       (nx, ny, nz)
-    Field<Faces> diffused_;              // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)
-    std::optional<Field<Cells>> smoke_;  // density, ScalarTransport             1         (nx, ny, nz)
-    std::vector<double> volumes_m3_;     // of the bodies
-    std::vector<BodyState> before_;      // bodies at the end of the last step
-    std::vector<Box> boxes_;             // cells near each body, this step
+    Field<Faces> u_;                  // velocity, project                    m/s       (nx+1, ny+1, nz+1)
+    Field<Cells4> phi_;               // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
+    Field<Cells4> increment_;         // of phi in a viscous step              m/s       (nx, ny, nz)
+    Field<Faces> diffused_;           // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)
+    std::vector<double> volumes_m3_;  // of the bodies
+    std::vector<BodyState> before_;   // bodies at the end of the last step
+    std::vector<Box> boxes_;          // cells near each body, this step
     long step_ = 0;
     double time_s_ = 0.0;
     double dt_s_ = 0.0;
@@ -72,9 +73,9 @@ class CutCellFluid final : public Fluid {
     // --- passes the scene called for
     Walls walls_;
     VelocityTransport advect_;
-    std::optional<ScalarTransport> advect_smoke_;
     std::optional<Pass> drive_, vorticity_, confinement_, body_forces_;
     std::optional<Fractions> fractions_;
+    std::optional<Scalar> smoke_, temperature_;  // with their fields: density [1], excess [K]
     BodyUniforms body_uniforms_;
     Pass divergence_;
     std::optional<Pass> divergence_cut_;
@@ -83,8 +84,7 @@ class CutCellFluid final : public Fluid {
     std::optional<ViscousTerm> viscosity_;
     std::optional<Pass> add_pressure_;
     std::optional<Traction> traction_;
-    std::optional<Pass> diagnose_;
-    std::optional<Reduce> reduce_diagnosis_;
+    Diagnosis diagnosis_;
     Results results_;  // loads and diagnosis
 };
 

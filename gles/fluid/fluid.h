@@ -15,6 +15,7 @@ struct Diagnostics {
     double kinetic_energy_j =
         0.0;                   ///< rho/2 sum |u|^2 h^3 (solid regions move with their body and are included)
     double smoke_total = 0.0;  ///< sum of the smoke density over all cells times the cell volume [m^3]
+    double temperature_total = 0.0;  ///< the same of the temperature [K m^3]
 };
 
 struct StepResult {
@@ -40,6 +41,8 @@ class Fluid {
 
     /// Smoke density at cell centres; null if the scene has none.
     virtual const Field<Cells>* smoke() const = 0;
+    /// Temperature above the reference [K] at cell centres; null if the scene has none.
+    virtual const Field<Cells>* temperature() const { return nullptr; }
     /// Velocity [m/s] as a plain array, x fastest, then y, then z. Waits for the GPU.
     /// On the staggered grid: (nx+1)(ny+1)(nz+1) entries, component c on the lower face of its cell.
     virtual std::vector<glm::vec3> velocity() const = 0;

@@ -5,7 +5,7 @@
 namespace eddy::gles {
 
 int Results::width(const FluidSetup& setup) {
-    return 2 * static_cast<int>(setup.bodies.size()) + 1;
+    return diagnosis_texel(setup).x + (setup.temperature ? 2 : 1);
 }
 
 bool Results::measures(const FluidSetup& setup) {
@@ -45,9 +45,14 @@ std::optional<StepResult> Results::take(bool wait) {
         result.loads.push_back(load);
     }
     if (asked.diagnosed) {
-        const glm::dvec4 d(got->texels.back());
+        const auto texel = [&](const glm::ivec2& at) {
+            return glm::dvec4(got->texels[static_cast<std::size_t>(at.x)]);
+        };
+        const glm::dvec4 d = texel(diagnosis_texel(*setup_));
         result.diagnostics =
             Diagnostics{d.w / h, d.x / h, 0.5 * setup_->density_kg_m3 * volume * d.y, d.z * volume};
+        if (setup_->temperature)
+            result.diagnostics->temperature_total = texel(heat_texel(*setup_)).x * volume;
     }
     return result;
 }

@@ -8,7 +8,8 @@
 namespace eddy::gles {
 
 /// The few numbers a step leaves on the GPU, and their way back to SI units: one row of texels, two for each
-/// body (force, then moment, as Traction writes them) and a last one for the diagnosis of the whole tank.
+/// body (force, then moment, as Traction writes them), one for the diagnosis of the whole tank and, where there is
+/// heat, one more.
 class Results {
   public:
     Results(Gpu& gpu, const FluidSetup& setup);
@@ -18,7 +19,13 @@ class Results {
     /// Where the force on body i goes; its moment goes beside it.
     static glm::ivec2 load_texel(int body) { return {2 * body, 0}; }
     /// Where the diagnosis goes: max |div u| after, sum |u|^2, sum of smoke, max |div u| before; m/s and cells.
-    static glm::ivec2 diagnosis_texel(const FluidSetup& setup) { return {width(setup) - 1, 0}; }
+    static glm::ivec2 diagnosis_texel(const FluidSetup& setup) {
+        return {2 * static_cast<int>(setup.bodies.size()), 0};
+    }
+    /// Where the sum of the temperature goes.
+    static glm::ivec2 heat_texel(const FluidSetup& setup) {
+        return diagnosis_texel(setup) + glm::ivec2(1, 0);
+    }
     /// Whether the force or torque on any body is asked for.
     static bool measures(const FluidSetup& setup);
 

@@ -79,8 +79,9 @@ struct SourceSetup {
     glm::dvec3 centre_m{0.0};
     double radius_m = 0.01;
     std::optional<glm::dvec3>
-        velocity_m_s{};        ///< the fluid inside is given this velocity before each projection
-    double smoke_per_s = 0.0;  ///< smoke density added per second
+        velocity_m_s{};                ///< the fluid inside is given this velocity before each projection
+    double smoke_per_s = 0.0;          ///< smoke density added per second
+    double temperature_k_per_s = 0.0;  ///< how fast it heats up
     double start_s = 0.0;
     double stop_s = std::numeric_limits<double>::infinity();
 };
@@ -90,6 +91,14 @@ struct SmokeSetup {
     double weight = 0.0;           ///< relative density excess of fluid with smoke of density 1 (Boussinesq)
     /// Density at the start at a place of the tank [m]; empty: none.
     std::function<double(const glm::dvec3&)> at_start{};
+};
+
+/// Heat, as the excess of the temperature over a reference at which the fluid has its density.
+struct TemperatureSetup {
+    double expansion_1_k = 0.0;  ///< relative density deficit of fluid that is a kelvin warmer (Boussinesq)
+    double diffusivity_m2_s = 0.0;  ///< kappa
+    /// At the start at a place of the tank [m]; empty: 0.
+    std::function<double(const glm::dvec3&)> at_start_k{};
 };
 
 enum class Method {
@@ -130,6 +139,7 @@ struct FluidSetup {
     /// Velocity at the start at a place of the tank [m]; empty: at rest.
     std::function<glm::dvec3(const glm::dvec3&)> velocity_at_start{};
     std::optional<SmokeSetup> smoke{};
+    std::optional<TemperatureSetup> temperature{};
     std::vector<SourceSetup> sources{};
     std::vector<BodySetup> bodies{};
     SolverSetup solver;

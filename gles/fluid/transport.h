@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 
 #include "gles/field.h"
@@ -20,11 +21,14 @@ class VelocityTransport {
     std::optional<Pass> forward_, correct_;
 };
 
-/// A quantity with one value in each cell that the flow carries.
+/// What the flow carries: smoke, heat.
 struct ScalarSetup {
-    const char* name;                  ///< of its passes
-    double SourceSetup::*from_source;  ///< how much of it a source adds per second
-    double fading_1_s = 0.0;           ///< exponential decay rate
+    const char* name = "";  ///< of its passes
+    /// At the start at a place of the tank [m]; empty: 0.
+    std::function<double(const glm::dvec3&)> at_start{};
+    double SourceSetup::*from_source = nullptr;  ///< how much of it a source adds per second
+    double fading_1_s = 0.0;                     ///< exponential decay rate
+    double diffusivity_m2_s = 0.0;
 };
 
 /// Carries a scalar with a velocity, lets it fade, and adds what the sources give.

@@ -162,6 +162,8 @@ TEST(SolverRules, KeysBelongToTheirPreset) {
                 ElementsAre(StartsWith("s.toml:3:13: solver.advection: is not in the method of Yang")));
     EXPECT_THAT(faults_of(yang + "time_order = 2\n"),
                 ElementsAre(StartsWith("s.toml:3:14: solver.time_order: is not in the method of Yang")));
+    EXPECT_THAT(faults_of(yang + "[temperature]\n"),
+                ElementsAre(StartsWith("s.toml:3:1: temperature: is not in the method of Yang")));
     EXPECT_THAT(faults_of(yang + "viscous_cycles = 2\n" + kWater),
                 ElementsAre(StartsWith("s.toml:3:18: solver.viscous_cycles: is not in the method of Yang")));
     EXPECT_THAT(faults_of("[solver]\ntime_order = 3\n"),

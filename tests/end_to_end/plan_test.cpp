@@ -50,6 +50,22 @@ TEST(Plan, WithoutSmokeHasNoSmokePassAndNoScalarTexture) {
     EXPECT_FALSE(rest.names("R32F")) << rest.text;
 }
 
+TEST(Plan, HasOnlyTheHeatThatTheSceneHas) {
+    const ScratchFolder folder;
+    const std::string still = "[tank]\ncells = [16, 16, 16]\n[fluid]\ngravity_m_s2 = [0, -9.81, 0]\n";
+    const auto plan = [&](const std::string& heat) {
+        return plan_of({folder.write("scene.toml", still + heat)});
+    };
+    const PrintedPlan none = plan(""), carried = plan("[temperature]\n"),
+                      all = plan("[temperature]\nexpansion_1_k = 0.003\ndiffusivity_m2_s = 1e-3\n");
+    EXPECT_TRUE(all.names("advect heat") && all.names("diffusion smooth") &&
+                all.names("velocity temperature"))
+        << all.text;
+    EXPECT_TRUE(carried.names("advect heat") && carried.names("R32F")) << carried.text;
+    EXPECT_FALSE(carried.names("diffusion") || carried.names("temperature")) << carried.text;
+    EXPECT_FALSE(none.names("heat") || none.names("R32F") || none.names("temperature")) << none.text;
+}
+
 TEST(Plan, WithoutABodyHasNoFractionsAndNoForce) {
     const ScratchFolder folder;
     const std::string scene = folder.write("empty.toml", "[tank]\ncells = [16, 16, 16]\n");

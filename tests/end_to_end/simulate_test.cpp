@@ -109,6 +109,29 @@ TEST(Simulate, WithoutABodyStillHasARowForEachStep) {
     EXPECT_EQ(split(lines[1], ',').at(1), "-");
 }
 
+TEST(Simulate, WritesTheHeatOfAWarmTank) {
+    const ScratchFolder folder;
+    const std::string scene =
+        folder.write("warm.toml",
+                     "[tank]\nsize_m = [0.1, 0.2, 0.2]\ncells = [8, 16, 16]\n[temperature]\n"
+                     "diffusivity_m2_s = 1e-3\ninitial_k = \"100 * x\"\n"
+                     "[outputs]\nfields = [\"temperature\"]\n");
+    const std::string out = folder / "out";
+    const Ended ended = eddy({"simulate", scene, "--steps", "3", "--out", out});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const std::vector<std::string> lines = lines_of(read_all(out + "/series.csv"));
+    ASSERT_EQ(lines.size(), 4u);
+    EXPECT_EQ(split(lines[0], ',').back(), "temperature_total_k_m3");
+    // On average 5 K in 0.004 m^3.
+    for (std::size_t row = 1; row < lines.size(); ++row)
+        EXPECT_NEAR(std::stod(split(lines[row], ',').at(13)), 0.02, 1e-7);
+    const Npy temperature = read_npy(out + "/temperature.npy");
+    EXPECT_EQ(temperature.shape, (std::vector<std::size_t>{16, 16, 8}));
+    EXPECT_LT(temperature.values.front(), temperature.values.back());
+    EXPECT_NEAR(nlohmann::json::parse(read_all(out + "/summary.json")).at("temperature_total_k_m3"), 0.02,
+                1e-7);
+}
+
 TEST(Simulate, ReplacesAnEarlierResult) {
     const ScratchFolder folder;
     const std::string out = folder / "out";

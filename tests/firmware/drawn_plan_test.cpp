@@ -82,16 +82,10 @@ Scene small_scene(std::string_view name, const std::string& preset) {
     return load_scene(std::string(name), overrides).scene;
 }
 
-class DrawnPlan : public gles::GlTest,
-                  public testing::WithParamInterface<std::tuple<std::string_view, std::string>> {};
-
-TEST_P(DrawnPlan, IsWhatGlWasAskedToDo) {
-    const auto& [name, preset] = GetParam();
-    if (preset == "yang2009" && load_scene(std::string(name)).scene.fluid.gravity_m_s2 != glm::dvec3(0.0))
-        GTEST_SKIP() << "skipped: the method of 2009 has no gravity";
-    const Scene scene = small_scene(name, preset);
+/// Runs a scene for six steps and compares their plan with what GL was asked to do.
+void expect_plan_is_what_gl_does(const gles::Capabilities& capabilities, const Scene& scene) {
     const BodyMotions motions(scene);
-    gles::Gpu own(gpu.capabilities());
+    gles::Gpu own(capabilities);
     g_asked = {};
     const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(own, fluid_setup(scene));
     const double dt = scene.solver.dt_s;
@@ -115,6 +109,35 @@ TEST_P(DrawnPlan, IsWhatGlWasAskedToDo) {
     EXPECT_EQ(g_asked.textures, static_cast<long>(own.textures().made()));
     EXPECT_EQ(g_asked.bytes, own.textures().bytes());
 }
+
+class DrawnPlan : public gles::GlTest,
+                  public testing::WithParamInterface<std::tuple<std::string_view, std::string>> {};
+
+TEST_P(DrawnPlan, IsWhatGlWasAskedToDo) {
+    const auto& [name, preset] = GetParam();
+    if (preset == "yang2009" && load_scene(std::string(name)).scene.fluid.gravity_m_s2 != glm::dvec3(0.0))
+        GTEST_SKIP() << "skipped: the method of 2009 has no gravity";
+    expect_plan_is_what_gl_does(gpu.capabilities(), small_scene(name, preset));
+}
+
+/// What no shipped scene has.
+const std::pair<std::string_view, std::string_view> kEffects[] = {
+    {"heat",
+     "[tank]\ncells = [16, 16, 16]\n[fluid]\ngravity_m_s2 = [0, -9.81, 0]\n"
+     "[temperature]\nexpansion_1_k = 0.0034\ndiffusivity_m2_s = 0.01\ninitial_k = \"100 * y\"\n"
+     "[[source]]\ncentre_m = [0.08, 0.03, 0.08]\nradius_m = 0.02\ntemperature_k_per_s = 40\n"
+     "[[body]]\nradius_m = 0.02\ncentre_m = [0.08, 0.08, 0.08]\n"},
+};
+
+class DrawnEffect : public gles::GlTest,
+                    public testing::WithParamInterface<std::pair<std::string_view, std::string_view>> {};
+
+TEST_P(DrawnEffect, IsWhatGlWasAskedToDo) {
+    expect_plan_is_what_gl_does(gpu.capabilities(), read_scene(GetParam().second, "effect.toml").scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(Effect, DrawnEffect, testing::ValuesIn(kEffects),
+                         [](const auto& tested) { return std::string(tested.param.first); });
 
 std::string test_name(const testing::TestParamInfo<DrawnPlan::ParamType>& info) {
     return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param);

@@ -8,10 +8,18 @@ namespace {
 
 using Stratified = GlTest;
 
-/// A slip box of fluid that is heavier at the bottom: smoke whose density falls linearly to 0 at the lid, N^2 = g w ds/dy.
-FluidSetup stratified(const glm::ivec3& n, double frequency) {
+enum class By { Smoke, Heat };
+
+/// A slip box of fluid that is heavier at the bottom: smoke whose density falls linearly to 0 at the lid, N^2 = g w ds/dy;
+/// or heat that rises from 0 to 1 there, N^2 = g beta dT/dy.
+FluidSetup stratified(const glm::ivec3& n, double frequency, By by) {
     FluidSetup s = unit_tank(n, 0.0, Advection::MacCormack, 6);
     s.gravity_m_s2 = {0.0, -1.0, 0.0};
+    if (by == By::Heat) {
+        s.temperature = TemperatureSetup{frequency * frequency * n.y, 0.0,
+                                         [n](const glm::dvec3& x) { return x.y / n.y; }};
+        return s;
+    }
     s.smoke = SmokeSetup{};
     s.smoke->weight = frequency * frequency * n.y;
     s.smoke->at_start = [n](const glm::dvec3& x) { return 1.0 - x.y / n.y; };
@@ -20,20 +28,25 @@ FluidSetup stratified(const glm::ivec3& n, double frequency) {
 
 TEST_F(Stratified, FluidStaysAtRest) {
     // Validation case A7 (b).
-    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, stratified({16, 20, 12}, 0.05));
-    for (int i = 0; i < 100; ++i) fluid->step(1.0, {}, false);
-    double most = 0.0;
-    for (const glm::vec3& u : fluid->velocity()) most = std::max(most, static_cast<double>(glm::length(u)));
-    EXPECT_LT(most, 1e-5 * 0.05 * 20.0);
+    for (const By by : {By::Smoke, By::Heat}) {
+        const std::unique_ptr<Fluid> fluid = make_fluid(gpu, stratified({16, 20, 12}, 0.05, by));
+        for (int i = 0; i < 100; ++i) fluid->step(1.0, {}, false);
+        double most = 0.0;
+        for (const glm::vec3& u : fluid->velocity())
+            most = std::max(most, static_cast<double>(glm::length(u)));
+        EXPECT_LT(most, 1e-5 * 0.05 * 20.0);
+    }
 }
 
 TEST_F(Stratified, InternalWavesSwingAtTheirFrequency) {
     // Validation case A8: omega = N k_h / |k|, here N / sqrt(2) for a square mode and N / sqrt(5) for one twice as high as
     // wide. The mode is started with its velocity alone and timed by its first passage through zero.
-    for (const auto& [n, share] : {std::pair(glm::ivec3(32, 32, 6), std::sqrt(0.5)),
-                                   std::pair(glm::ivec3(48, 24, 6), std::sqrt(0.2))}) {
+    const double square = std::sqrt(0.5), wide = std::sqrt(0.2);
+    for (const auto& [n, share, by] : {std::tuple(glm::ivec3(32, 32, 6), square, By::Smoke),
+                                       std::tuple(glm::ivec3(32, 32, 6), square, By::Heat),
+                                       std::tuple(glm::ivec3(48, 24, 6), wide, By::Smoke)}) {
         const double frequency = 0.02, kx = std::numbers::pi / n.x, ky = std::numbers::pi / n.y;
-        FluidSetup s = stratified(n, frequency);
+        FluidSetup s = stratified(n, frequency, by);
         const double amplitude = 1e-3 * frequency * n.y;
         s.velocity_at_start = [=](const glm::dvec3& x) {
             return amplitude *
@@ -61,7 +74,7 @@ TEST_F(Stratified, InternalWavesSwingAtTheirFrequency) {
         }
         t -= dt * now / (now - before);
         const double omega = 0.5 * std::numbers::pi / t;
-        record(n.x == 32 ? "square" : "wide", omega / (frequency * share));
+        record(by == By::Heat ? "heat" : n.x == 32 ? "square" : "wide", omega / (frequency * share));
         EXPECT_NEAR(omega, frequency * share, 0.02 * frequency * share);
     }
 }
