@@ -5,6 +5,14 @@
 #include <cstring>
 
 namespace eddy::gles {
+namespace {
+
+constexpr GLuint64 kPatienceNs = 10'000'000'000;
+/// Drivers may compile a pass when it is first drawn, and the first answer comes after all of them: with Mesa's zink over
+/// lavapipe, 20 s on a busy machine of two cores.
+constexpr GLuint64 kFirstPatienceNs = 120'000'000'000;
+
+}  // namespace
 
 Readback::Readback(Gpu& gpu, const glm::ivec2& size) : gpu_(&gpu), size_(size) {
     for (Slot& slot : slots_) {
@@ -37,7 +45,7 @@ void Readback::request(const Texture& texture, long tag) {
 std::optional<Readback::Result> Readback::take(bool wait) {
     if (under_way_ == 0) return std::nullopt;
     Slot& slot = slots_[first_];
-    const GLuint64 patience_ns = wait ? 10'000'000'000ull : 0;
+    const GLuint64 patience_ns = !wait ? 0 : answered_ ? kPatienceNs : kFirstPatienceNs;
     const GLenum state =
         glClientWaitSync(static_cast<GLsync>(slot.fence), GL_SYNC_FLUSH_COMMANDS_BIT, patience_ns);
     if (state == GL_TIMEOUT_EXPIRED && !wait) return std::nullopt;
@@ -51,6 +59,7 @@ std::optional<Readback::Result> Readback::take(bool wait) {
         ++failures_;
         return std::nullopt;
     }
+    answered_ = true;
     const std::size_t count = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y);
     Result result{slot.tag, std::vector<glm::vec4>(count)};
     glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);

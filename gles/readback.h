@@ -39,6 +39,7 @@ class Readback {
     glm::ivec2 size_;
     std::array<Slot, 3> slots_;
     std::size_t first_ = 0, under_way_ = 0;
+    bool answered_ = false;  // ever
     std::uint64_t failures_ = 0;
 };
 
