@@ -4,7 +4,6 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
-#include <chrono>
 #include <csignal>
 #include <sstream>
 #include <stdexcept>
@@ -39,11 +38,11 @@ void Program::send(int signal) const {
     ::kill(pid_, signal);
 }
 
-Ended Program::wait() {
+Ended Program::wait(std::chrono::seconds patience) {
     int status = 0;
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto latest = std::chrono::steady_clock::now() + patience;
     while (::waitpid(pid_, &status, WNOHANG) == 0) {
-        if (std::chrono::steady_clock::now() > patience) ::kill(pid_, SIGKILL);
+        if (std::chrono::steady_clock::now() > latest) ::kill(pid_, SIGKILL);
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     pid_ = 0;

@@ -1,6 +1,7 @@
 #pragma once
 #include <sys/types.h>
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     void send(int signal) const;
-    /// A program that has not ended after a minute is killed.
-    Ended wait();
+    /// A program that has not ended by then is killed.
+    Ended wait(std::chrono::seconds patience = std::chrono::minutes(1));
 
   private:
     ScratchFolder output_;
