@@ -15,10 +15,20 @@ extern const std::span<const EmbeddedFile> kSceneFiles;
 
 namespace {
 
-// "jet" for config/scenes/jet.toml.
+constexpr std::string_view kScenesFolder = "config/scenes/", kValidation = "validation/";
+
+// "jet" for config/scenes/jet.toml, "validation/A1" for config/scenes/validation/A1.toml.
 std::string_view scene_name(const EmbeddedFile& file) {
-    const std::string_view name = file.name.substr(file.name.rfind('/') + 1);
+    const std::string_view name = std::string_view(file.name).substr(kScenesFolder.size());
     return name.substr(0, name.rfind('.'));
+}
+
+std::vector<std::string_view> sorted_names(bool of_validation) {
+    std::vector<std::string_view> names;
+    for (const EmbeddedFile& file : kSceneFiles)
+        if (scene_name(file).starts_with(kValidation) == of_validation) names.push_back(scene_name(file));
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 LoadedScene read_scene_in(const std::filesystem::path& folder, std::string_view text, const std::string& file,
@@ -42,14 +52,16 @@ LoadedScene read_scene_in(const std::filesystem::path& folder, std::string_view 
 }  // namespace
 
 std::vector<std::string_view> shipped_scenes() {
-    std::vector<std::string_view> names;
-    for (const EmbeddedFile& file : kSceneFiles) names.push_back(scene_name(file));
-    std::sort(names.begin(), names.end());
-    return names;
+    return sorted_names(false);
+}
+
+std::vector<std::string_view> validation_scenes() {
+    return sorted_names(true);
 }
 
 bool is_scene_file(std::string_view path_or_name) {
-    return path_or_name.find('/') != std::string_view::npos || path_or_name.ends_with(".toml");
+    if (path_or_name.ends_with(".toml")) return true;
+    return !path_or_name.starts_with(kValidation) && path_or_name.find('/') != std::string_view::npos;
 }
 
 LoadedScene load_scene(const std::string& path_or_name, std::span<const std::string> overrides) {
@@ -59,7 +71,8 @@ LoadedScene load_scene(const std::string& path_or_name, std::span<const std::str
             return read_scene_in(std::filesystem::current_path(), file.text, std::string(file.name),
                                  overrides);
     }
-    const std::string choice = listed(nearest_first(path_or_name, shipped_scenes()));
+    const bool of_validation = path_or_name.starts_with(kValidation);
+    const std::string choice = listed(nearest_first(path_or_name, sorted_names(of_validation)));
     throw ConfigError({diagnose({path_or_name, 0, 0}, "",
                                 "no shipped scene has this name; shipped, nearest first: " + choice +
                                     "; a scene file is named with a slash or with .toml at its end")});

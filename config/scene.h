@@ -235,7 +235,7 @@ struct LoadedScene {
 };
 
 /// Loads a scene: a file, when `path_or_name` holds a slash or ends in ".toml", otherwise a shipped scene by
-/// its name ("jet"). `overrides` are "key=value" as apply_override() takes them. Defaults that follow from
+/// its name ("jet", "validation/A1"). `overrides` are "key=value" as apply_override() takes them. Defaults that follow from
 /// other values are filled in: names, the held body's and the hand's centre; file names are absolute (taken
 /// from the scene file's folder; in an override, from the current one). Throws ConfigError, with everything
 /// that is wrong.
@@ -251,6 +251,9 @@ std::string print_scene(Scene scene, const Origins* origins = nullptr);
 
 /// The names of the scenes in the binary, sorted.
 std::vector<std::string_view> shipped_scenes();
+/// And of those that `eddy accuracy` runs: "validation/A1".
+std::vector<std::string_view> validation_scenes();
+/// Whether load_scene() would take it for a file.
 bool is_scene_file(std::string_view path_or_name);
 
 /// Whether a file holds a scene rather than an exhibit's settings, judged by its top-level keys: those of an

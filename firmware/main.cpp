@@ -54,6 +54,7 @@ struct CommandLine {
     RunOptions run;
     SimulateOptions simulate;
     BenchOptions bench;
+    AccuracyOptions accuracy;
     std::string check_file, print_scene;
     std::vector<std::string> print_set;
     bool print_origin = false, print_keys = false;
@@ -71,6 +72,7 @@ struct CommandLine {
         add_run();
         add_simulate();
         add_bench();
+        add_accuracy();
         auto* check =
             app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
         check->add_option("FILE", check_file, "the file to check")->required();
@@ -145,7 +147,7 @@ struct CommandLine {
         verb->option_defaults()->take_last();
         verb->add_option("--scene", bench.scene, "shipped scene or file")->capture_default_str();
         add_set(*verb, bench.set);
-        verb->add_option("--grid", bench.grids, "cells along x, as 25,32,48")
+        verb->add_option("--grid", bench.grids, "cells along the longest side of the tank, as 25,32,48")
             ->delimiter(',')
             ->take_all()
             ->check(CLI::Range(8, 512))
@@ -154,6 +156,28 @@ struct CommandLine {
             ->check(CLI::Range(1, 100000))
             ->capture_default_str();
         verb->add_option("--json", bench.json, "also write the figures to this file");
+    }
+
+    void add_accuracy() {
+        auto* verb = app.add_subcommand(
+            "accuracy", "Cases with known answers: how far off the solver is, at what order, at what cost");
+        verb->option_defaults()->take_last();
+        verb->add_flag("--validate", accuracy.validate, "run the cases; exit status 1 if a limit is missed");
+        verb->add_flag("--list", accuracy.list, "list the cases and their grids");
+        verb->add_option("--case", accuracy.cases, "only these: a case or a family, as B2-shell or B2,B3")
+            ->delimiter(',')
+            ->take_all();
+        auto* full = verb->add_flag("--full", accuracy.full,
+                                    "on the grids of a full validation (some hours in software)");
+        verb->add_option("--grid", accuracy.grids,
+                         "on these grids: cells along the longest side of the tank, as 25,32,48")
+            ->delimiter(',')
+            ->take_all()
+            ->check(CLI::Range(8, 512))
+            ->excludes(full);
+        add_set(*verb, accuracy.set);
+        verb->add_option("--json", accuracy.json, "also write the figures to this file");
+        verb->add_flag("--csv", accuracy.csv, "print lines of CSV instead of tables");
     }
 
     /// CLI11 would call an unknown verb a missing one.
@@ -171,6 +195,7 @@ struct CommandLine {
         if (app.got_subcommand("run")) return eddy::run(run);
         if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
         if (app.got_subcommand("bench")) return eddy::bench(bench);
+        if (app.got_subcommand("accuracy")) return eddy::validate(accuracy);
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);
     }

@@ -9,6 +9,7 @@
 #include "firmware/input_error.h"
 #include "firmware/machine.h"
 #include "firmware/progress.h"
+#include "firmware/scene_grid.h"
 #include "firmware/stopwatch.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/verbs.h"
@@ -25,7 +26,7 @@ constexpr int kWarmUp =
 
 /// One preset on one grid.
 struct Measurement {
-    int cells;  // along x
+    int cells;  // along the longest side
     std::string preset;
     Timings step;  // whole steps, no waiting inside
     std::vector<std::pair<std::string, Timings>> stages;
@@ -33,20 +34,8 @@ struct Measurement {
     double divergence_cut = 0.0;  // median factor by which a step cuts max |div u|
 };
 
-/// The scene with `cells` cells along x. Throws InputError if they would not be cubes.
-Scene with_grid(Scene scene, int cells) {
-    const glm::dvec3 n = scene.tank.size_m / (scene.tank.size_m.x / cells);
-    scene.tank.cells = glm::ivec3(glm::round(n));
-    if (glm::length(n - glm::dvec3(scene.tank.cells)) > 1e-3)
-        throw InputError(
-            fmt::format("--grid {}: cells that many along x would make {:.4g} along y and {:.4g} along z; "
-                        "choose a number that divides the tank into cubes",
-                        cells, n.y, n.z));
-    return scene;
-}
-
 Measurement measure(gles::Gpu& gpu, Scene scene, int cells, SolverPreset preset, int repeats) {
-    scene = with_grid(std::move(scene), cells);
+    scene = with_longest_side(std::move(scene), cells);
     scene.solver.preset = preset;
     const BodyMotions motions(scene);
     const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, fluid_setup(scene));
@@ -157,7 +146,7 @@ std::string to_json(const std::vector<Measurement>& all, const gles::Capabilitie
 
 int bench(const BenchOptions& options) {
     const Scene scene = load_scene(options.scene, options.set).scene;
-    for (const int cells : options.grids) with_grid(scene, cells);
+    for (const int cells : options.grids) with_longest_side(scene, cells);
     BodyMotions{scene};  // reads the paths
     if (!options.json.empty()) check_destination("--json", options.json);
     const std::unique_ptr<Graphics> graphics = open_headless();

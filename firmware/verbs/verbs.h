@@ -31,6 +31,19 @@ struct BenchOptions {
 };
 int bench(const BenchOptions& options);
 
+struct AccuracyOptions {
+    bool validate = false;           ///< run cases with known answers
+    bool list = false;               ///< say which there are, and stop
+    bool full = false;               ///< on the grids of a full validation
+    std::vector<std::string> cases;  ///< names or families; empty: all
+    std::vector<int> grids;          ///< cells along the longest side; empty: each case's own
+    std::vector<std::string> set;    ///< key=value, after what the case itself sets
+    std::string json;                ///< file; empty: none
+    bool csv = false;                ///< lines of CSV on standard output in place of tables
+};
+/// 1 too if a limit was missed.
+int validate(const AccuracyOptions& options);
+
 enum class ClockChoice { Real, Stepped };
 
 struct RunOptions {

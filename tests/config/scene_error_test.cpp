@@ -276,6 +276,13 @@ TEST(SceneError, UnknownSceneNameShowsTheShippedOnes) {
     for (const std::string_view name : shipped_scenes()) EXPECT_THAT(lines[0], HasSubstr(std::string(name)));
 }
 
+TEST(SceneError, UnknownValidationSceneShowsTheOthers) {
+    EXPECT_THAT(
+        complaints([] { load_scene("validation/A12"); }),
+        ElementsAre(StartsWith("validation/A12: no shipped scene has this name; shipped, nearest first: "
+                               "\"validation/A1")));
+}
+
 TEST(SceneError, UnreadableFileSaysWhy) {
     EXPECT_THAT(complaints([] { load_scene("no/such/scene.toml"); }),
                 ElementsAre("no/such/scene.toml: cannot be read: No such file or directory"));

@@ -16,6 +16,7 @@ const std::vector<Verb> kVerbs{
       "--record", "--fps", "--clock", "--run-dir"}},
     {"simulate", {"SCENE", "--set", "--seconds", "--steps", "--out", "--plan"}},
     {"bench", {"--scene", "--set", "--grid", "--repeats", "--json"}},
+    {"accuracy", {"--validate", "--list", "--case", "--full", "--grid", "--set", "--json", "--csv"}},
     {"check-config", {"FILE"}},
     {"print-config", {"SCENE", "--set", "--origin"}},
 };

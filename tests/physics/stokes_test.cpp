@@ -8,8 +8,8 @@ namespace {
 
 using Stokes = GlTest;
 
-/// Creeping flow around a sphere in a cube whose walls the fluid sticks to, radius one fifth of the edge: validation
-/// cases B3 and B4. The sphere moves or turns at its place (the displacement is nothing beside its radius) until the
+/// Creeping flow around a sphere in a cube whose walls the fluid sticks to, radius one fifth of the edge, as in
+/// validation/B3 and B4. The sphere moves or turns at its place (the displacement is nothing beside its radius) until the
 /// flow is steady, in steps far longer than the grid's own diffusion time.
 struct Creeping {
     int n;
@@ -37,24 +37,10 @@ struct Creeping {
         return -steady(gpu, {kSpeed, 0.0, 0.0}, glm::dvec3(0.0), steps).force_n.x /
                (6.0 * std::numbers::pi * radius() * kSpeed);
     }
-    /// Torque over 8 pi mu a^3 Omega.
-    double torque_factor(Gpu& gpu) const {
-        constexpr double kSpin = 1e-5;
-        return -steady(gpu, glm::dvec3(0.0), {0.0, kSpin, 0.0}).torque_nm.y /
-               (8.0 * std::numbers::pi * std::pow(radius(), 3) * kSpin);
-    }
 };
 
 // By the method of fundamental solutions, for a sphere in the middle.
-constexpr double kDrag = 3.12346, kTorque = 1.04749;
-
-TEST_F(Stokes, TheDragOfASphereInACubeIsWithinThreePercent) {
-    for (const double offset : {0.0, 0.31}) {
-        const double k = Creeping{32, glm::dvec3(offset, 0.7 * offset, 0.4 * offset)}.drag_factor(gpu);
-        record("drag_over_exact", k / kDrag);
-        EXPECT_NEAR(k, kDrag, 0.03 * kDrag) << "offset " << offset;
-    }
-}
+constexpr double kDrag = 3.12346;
 
 TEST_F(Stokes, TheDragConvergesAtSecondOrderWhereverTheSphereLies) {
     for (const glm::dvec3& offset : {glm::dvec3(0.0), glm::dvec3(0.5), glm::dvec3(0.25, 0.1, 0.4)}) {
@@ -76,12 +62,6 @@ TEST_F(Stokes, TheDragStaysFiniteAndRightInStepsOfAnyLength) {
             const double k = creeping.drag_factor(gpu, 30);
             EXPECT_NEAR(k, kDrag, 0.15 * kDrag) << "nu dt / h^2 = " << lambda << ", offset " << offset;
         }
-}
-
-TEST_F(Stokes, TheTorqueOnATurningSphereInACubeIsWithinThreePercent) {
-    const double k = Creeping{32, {0.31, 0.22, 0.12}}.torque_factor(gpu);
-    record("torque_over_exact", k / kTorque);
-    EXPECT_NEAR(k, kTorque, 0.03 * kTorque);
 }
 
 TEST_F(Stokes, DragIsProportionalToVelocityAndReversesWithIt) {

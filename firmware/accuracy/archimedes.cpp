@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/accuracy/case.h"
+#include "gles/body/mass_properties.h"
+
+// B1   A solid held in a fluid at rest is pushed up with the weight of the fluid it displaces, whatever its shape, its pose
+//      and where it lies between the cells. The force comes from the pressure that was solved for.
+
+namespace eddy::accuracy {
+namespace {
+
+/// Force up on body i over the weight of the fluid it displaces.
+double buoyancy(const Run& run, const gles::StepResult& result, std::size_t i) {
+    const gles::FluidSetup& setup = run.setup();
+    const double volume = gles::mass_properties(setup.bodies[i].shape).volume_m3;
+    const glm::dvec3 weight = setup.density_kg_m3 * volume * setup.gravity_m_s2;
+    return -glm::dot(result.loads[i].force_n, weight) / glm::dot(weight, weight);
+}
+
+/// The ball at places along a diagonal through one cell; the value that is furthest from 1.
+std::vector<double> worst_of_places(Laboratory& lab) {
+    constexpr int kPlaces = 20;
+    double worst = 1.0;
+    for (int i = 0; i < kPlaces; ++i) {
+        Scene scene = lab.scene();
+        scene.bodies[0].centre_m += scene.tank.cell_m() * i / kPlaces * glm::dvec3(1.0, 0.7, 0.4);
+        Run run = lab.start(scene);
+        const double share = buoyancy(run, run.step_to_end(), 0);
+        if (!(std::abs(share - 1.0) <= std::abs(worst - 1.0))) worst = share;
+    }
+    return {worst};
+}
+
+std::vector<double> each_shape(Laboratory& lab) {
+    Run run = lab.start();
+    const gles::StepResult result = run.step_to_end();
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < lab.scene().bodies.size(); ++i) shares.push_back(buoyancy(run, result, i));
+    return shares;
+}
+
+}  // namespace
+
+std::vector<Case> archimedes_cases() {
+    const auto share = [](const std::string& name, const Limit& limit) {
+        return Quantity{.name = name,
+                        .exact = 1.0,
+                        .source = "Archimedes",
+                        .error = Quantity::Error::Relative,
+                        .limits = {limit}};
+    };
+    std::vector<Quantity> shapes;
+    for (const Scene::Body& body : load_scene("validation/B1-shapes").scene.bodies)
+        shapes.push_back(share(body.name, {80, 0.005}));
+    return {{.name = "B1-sphere",
+             .title = "buoyancy of a ball over the water's weight, the worst of 20 places within a cell",
+             .scene = "validation/B1-sphere",
+             .quick = {16, 24},
+             .full = {16, 24, 32, 48},
+             .quantities = {share("force / weight", {16, 0.002})},
+             .measure = worst_of_places},
+            {.name = "B1-shapes",
+             .title = "buoyancy of every shape over the water's weight",
+             .scene = "validation/B1-shapes",
+             .quick = {80},
+             .full = {80, 120, 160},
+             .quantities = shapes,
+             .measure = each_shape}};
+}
+
+}  // namespace eddy::accuracy

@@ -1,0 +1,34 @@
+#include "firmware/accuracy/case.h"
+
+#include <fmt/format.h>
+
+#include "config/diagnostic.h"
+#include "config/nearest.h"
+#include "firmware/input_error.h"
+
+namespace eddy::accuracy {
+
+const std::vector<Case>& all_cases() {
+    static const std::vector<Case> cases = [] {
+        std::vector<Case> all;
+        for (auto* const page : {taylor_green_cases, cavity_cases, archimedes_cases, added_mass_cases,
+                                 creeping_flow_cases, ripple_cases})
+            for (Case& one : page()) all.push_back(std::move(one));
+        return all;
+    }();
+    return cases;
+}
+
+std::vector<const Case*> cases_named(const std::string& name) {
+    std::vector<const Case*> found;
+    for (const Case& one : all_cases()) {
+        if (one.name == name || one.name.starts_with(name + "-")) found.push_back(&one);
+    }
+    if (!found.empty()) return found;
+    std::vector<std::string_view> names;
+    for (const Case& one : all_cases()) names.push_back(one.name);
+    throw InputError(fmt::format("--case {}: there is no such case; nearest first: {}", in_quotes(name),
+                                 listed(nearest_first(name, names))));
+}
+
+}  // namespace eddy::accuracy

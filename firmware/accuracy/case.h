@@ -1,0 +1,73 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/accuracy/laboratory.h"
+
+namespace eddy::accuracy {
+
+/// How the time step follows the width h of a cell when the grid of a scene is changed.
+enum class TimeStep {
+    Same,      ///< dt stays
+    Courant,   ///< dt ~ h: the fluid crosses as much of a cell
+    Diffusion  ///< dt ~ h^2: halving h quarters the errors of a first-order step too
+};
+
+/// The most that an error may be on grids of so many cells along the longest side, and finer.
+struct Limit {
+    int cells;
+    double error;
+};
+
+/// What a case measures, and what it should be.
+struct Quantity {
+    enum class Error {
+        Relative,  ///< |measured - exact| / |exact|
+        Absolute   ///< |measured - exact|
+    };
+    std::string name = {};
+    double exact = 0.0;
+    std::string source = {};  ///< of the exact value
+    Error error = Error::Absolute;
+    std::vector<Limit> limits = {};          ///< coarsest first; none: shown, not judged
+    std::optional<double> least_order = {};  ///< of convergence between the two finest grids
+};
+
+/// One page of the textbook: a scene, how it is refined, and what comes out of it.
+struct Case {
+    std::string name = {};              ///< "B2-shell"; what is before the dash is its family
+    std::string title = {};             ///< one line
+    std::string scene = {};             ///< a shipped one: "validation/B2"
+    std::vector<std::string> set = {};  ///< what is changed in it, as --set takes it
+    TimeStep time_step = TimeStep::Same;
+    std::vector<int> quick = {};  ///< cells along the longest side; none: the case is only run in full
+    std::vector<int> full = {};
+    std::vector<Quantity> quantities = {};
+    /// The quantities, in their order, on the laboratory's grid.
+    std::function<std::vector<double>(Laboratory&)> measure = {};
+};
+
+/// Every case, by name.
+const std::vector<Case>& all_cases();
+
+/// The cases that a user means by "B2-shell" or by "B2" (the whole family). Throws InputError that lists the names.
+std::vector<const Case*> cases_named(const std::string& name);
+
+// The pages, one file for each family.
+std::vector<Case> taylor_green_cases();   // A1, A2
+std::vector<Case> rest_cases();           // A7
+std::vector<Case> internal_wave_cases();  // A8
+std::vector<Case> cavity_cases();         // A11
+std::vector<Case> viscous_flow_cases();   // A12
+std::vector<Case> smoke_mass_cases();     // A16
+std::vector<Case> inflow_cases();         // A17
+std::vector<Case> confinement_cases();    // A18
+std::vector<Case> archimedes_cases();     // B1
+std::vector<Case> added_mass_cases();     // B2
+std::vector<Case> creeping_flow_cases();  // B3, B4
+std::vector<Case> sphere_drag_cases();    // B6
+std::vector<Case> ripple_cases();         // B8.7
+
+}  // namespace eddy::accuracy
