@@ -27,7 +27,7 @@ Traction::Traction(Gpu& gpu, const FluidSetup& setup, int target_width) : gpu_(&
 
 void Traction::draw(const Field<Cells4>& phi, const FaceFractions& a, const BodyUniforms& uniforms,
                     const std::vector<BodyState>& states, const std::vector<Box>& boxes,
-                    const Texture& target, const std::optional<Friction>& friction) {
+                    const Texture& target, const std::optional<Friction>& friction, int first) {
     std::vector<Input> inputs = uniforms.inputs();
     inputs.insert(
         inputs.end(),
@@ -52,7 +52,7 @@ void Traction::draw(const Field<Cells4>& phi, const FaceFractions& a, const Body
                                        {"pivot", glm::vec3(states[index].centre_m / cell_m_)},
                                        {"body", body.index}});
         body.sum_columns.draw(inputs, of_body, {&*force, &*moment});
-        const glm::ivec2 to = Results::load_texel(body.index);
+        const glm::ivec2 to = Results::load_texel(body.index) + glm::ivec2(first, 0);
         body.reduce.draw(*force, target, to);
         body.reduce.draw(*moment, target, to + glm::ivec2(1, 0));
     }

@@ -23,11 +23,11 @@ class Traction {
         float lambda;
     };
 
-    /// Writes, for body i, sum(phi grad(1-a)), friction added, to texel 2i of `target` and its moment to texel 2i + 1: in m/s
-    /// cells^2 and m/s cells^3. Times rho h^3/dt and rho h^4/dt they are newtons and newton metres.
+    /// Writes, for body i, sum(phi grad(1-a)), friction added, to texel `first` + 2i of `target` and its moment to the one
+    /// beside it: in m/s cells^2 and m/s cells^3. Times rho h^3/dt and rho h^4/dt they are newtons and newton metres.
     void draw(const Field<Cells4>& phi, const FaceFractions& a, const BodyUniforms& uniforms,
               const std::vector<BodyState>& states, const std::vector<Box>& boxes, const Texture& target,
-              const std::optional<Friction>& friction);
+              const std::optional<Friction>& friction, int first = 0);
 
   private:
     struct Body {

@@ -100,6 +100,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
     }
     for (const BodySetup& body : setup_.bodies)
         volumes_m3_.push_back((body.inside_out ? -1.0 : 1.0) * mass_properties(body.shape).volume_m3);
+    if (Coupling::needed(setup_)) coupling_.emplace(gpu, setup_, pressure_, body_uniforms_);
     if (Results::measures(setup_)) traction_.emplace(gpu, setup_, Results::width(setup_));
     const Fractions* solids = fractions_ ? &*fractions_ : nullptr;
     if (const auto smoke = Scalar::smoke(setup_)) smoke_.emplace(gpu, setup_, *smoke, walls_, solids);
@@ -144,16 +145,19 @@ void CutCellFluid::reset() {
     if (smoke_) smoke_->reset();
     if (temperature_) temperature_->reset();
     results_.forget();
-    before_.clear();
+    bodies_.clear();
+    if (coupling_) coupling_->reset();
     dt_s_ = 0.0;
     step_ = 0;
     time_s_ = 0.0;
 }
 
-void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool wants_diagnosis) {
+void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool wants_diagnosis) {
     // phi ~ dt p; before the first step there is none.
     const float guess_scale = dt_s_ > 0.0 ? static_cast<float>(dt_s / dt_s_) : 1.0f;
     dt_s_ = dt_s;
+    std::vector<BodyState> bodies =
+        coupling_ ? coupling_->predict(given, bodies_, dt_s) : given;  // x = x + dt U
     body_uniforms_.set(bodies);
     boxes_.clear();
     for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -203,20 +207,19 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
         Gpu::Stage stage(gpu_, "pressure");
         phi_ = solve_pressure(b, work);  // div (a grad phi) = b
     }
+    if (coupling_) {
+        Gpu::Stage stage(gpu_, "coupling");
+        couple(bodies);  // M dU/dt = F + weight; phi += sum dU_k phi_k
+    }
     {
         Gpu::Stage stage(gpu_, "project");
         u_ = project(u_star, viscosity_ ? increment_ : phi_, 1.0f);  // u = u* - grad phi
     }
-    before_ = bodies;
     ++step_;
     if (traction_) {
         Gpu::Stage stage(gpu_, "force");
-        std::optional<Traction::Friction> friction;
-        if (viscosity_)
-            friction.emplace(
-                Traction::Friction{diffused_, *viscosity_->grip(), diffusion_number(setup_, dt_s_)});
         traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_, results_.row(),
-                        friction);  // F = int p grad(1 - a) + mu du/dn
+                        friction());  // F = int p grad(1 - a) + mu du/dn
     }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
@@ -226,6 +229,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& bodies, bool 
         Gpu::Stage stage(gpu_, "read back");
         results_.request(step_, dt_s, wants_diagnosis, turning_torque(bodies));
     }
+    bodies_ = std::move(bodies);
 }
 
 Field<Faces> CutCellFluid::add_body_forces(const Field<Faces>& u) {
@@ -275,11 +279,24 @@ Field<Cells4> CutCellFluid::solve_pressure(const Field<Cells4>& b, const Pressur
     return phi;
 }
 
+std::optional<Traction::Friction> CutCellFluid::friction() const {
+    if (!viscosity_) return std::nullopt;
+    return Traction::Friction{diffused_, *viscosity_->grip(), diffusion_number(setup_, dt_s_)};
+}
+
+void CutCellFluid::couple(std::vector<BodyState>& bodies) {
+    const std::vector<glm::dvec3> torque = turning_torque(bodies);
+    coupling_->solve(bodies,
+                     {phi_, fractions_->level(0), boxes_, motions(bodies), friction(), torque, dt_s_});
+    phi_ = coupling_->add_to(std::move(phi_));
+    if (viscosity_) increment_ = coupling_->add_to(std::move(increment_));
+}
+
 std::vector<BodyMotion> CutCellFluid::motions(const std::vector<BodyState>& bodies) const {
     std::vector<BodyMotion> result;
-    for (std::size_t i = 0; i < before_.size(); ++i)
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
         result.push_back({glm::vec3(bodies[i].centre_m / setup_.cell_m),
-                          glm::vec3((bodies[i].centre_m - before_[i].centre_m) / setup_.cell_m),
+                          glm::vec3((bodies[i].centre_m - bodies_[i].centre_m) / setup_.cell_m),
                           static_cast<float>(bounding_radius_m(setup_.bodies[i].shape) / setup_.cell_m)});
     return result;
 }

@@ -3,6 +3,7 @@
 
 #include "gles/body/fractions.h"
 #include "gles/body/traction.h"
+#include "gles/fluid/coupling.h"
 #include "gles/fluid/diagnosis.h"
 #include "gles/fluid/fluid.h"
 #include "gles/fluid/pressure.h"
@@ -19,7 +20,7 @@ class CutCellFluid final : public Fluid {
   public:
     CutCellFluid(Gpu& gpu, FluidSetup setup);
 
-    void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
+    void step(double dt_s, const std::vector<BodyState>& given, bool diagnose) override;
     std::optional<StepResult> result(bool wait) override { return results_.take(wait); }
     long steps() const override { return step_; }
     void reset() override;
@@ -53,19 +54,22 @@ class CutCellFluid final : public Fluid {
     Field<Cells4> divergence(const Field<Faces>& u);
     Field<Cells4> solve_pressure(const Field<Cells4>& b, const Pressure::Work& work);
     Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale);
+    /// Gives the coupled bodies their velocities, and phi what those change in it.
+    void couple(std::vector<BodyState>& bodies);
+    /// What friction is computed from, in a viscous fluid.
+    std::optional<Traction::Friction> friction() const;
     /// What the viscous term's links leave out of the torque.
     std::vector<glm::dvec3> turning_torque(const std::vector<BodyState>& bodies) const;
     bool is_viscous() const { return setup_.viscosity_pa_s > 0.0; }
 
     // --- state, and who writes it                                             unit       cells
     Gpu& gpu_;
-    Field<Faces> u_;                  // velocity, project                    m/s       (nx+1, ny+1, nz+1)
-    Field<Cells4> phi_;               // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
-    Field<Cells4> increment_;         // of phi in a viscous step              m/s       (nx, ny, nz)
-    Field<Faces> diffused_;           // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)
-    std::vector<double> volumes_m3_;  // of the bodies
-    std::vector<BodyState> before_;   // bodies at the end of the last step
-    std::vector<Box> boxes_;          // cells near each body, this step
+    Field<Faces> u_;                     // velocity, project                    m/s       (nx+1, ny+1, nz+1)
+    Field<Cells4> phi_;                  // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
+    Field<Cells4> increment_;            // of phi in a viscous step              m/s       (nx, ny, nz)
+    Field<Faces> diffused_;              // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)
+    std::vector<double> volumes_m3_;     // of the bodies
+    std::vector<Box> boxes_;             // cells near each body, this step
     long step_ = 0;
     double time_s_ = 0.0;
     double dt_s_ = 0.0;
@@ -83,6 +87,7 @@ class CutCellFluid final : public Fluid {
     Projection project_;
     std::optional<ViscousTerm> viscosity_;
     std::optional<Pass> add_pressure_;
+    std::optional<Coupling> coupling_;
     std::optional<Traction> traction_;
     Diagnosis diagnosis_;
     Results results_;  // loads and diagnosis

@@ -3,10 +3,21 @@
 // reads   velocity    RGBA32F  Faces (nx+1, ny+1, nz+1)    [m/s]
 // reads   ax, ay, az  RGBA32F  Faces4                      fluid fraction (variant CUT)
 // writes  b           RGBA32F  Cells4 (nx, ny, nz)         [m/s]   times h^2: volume flowing out of the cell per second
-// fetches 13, CUT 19
+// fetches 13, CUT 19, CUT+AT_REST 6
 //
-// Variants: plain for cells away from solids; CUT near them. Tank walls let nothing through; with THROUGH, some do (walls.h).
+// Variants: plain for cells away from solids; CUT near them; AT_REST where only solids move. Tank walls let nothing
+// through; with THROUGH, some do (walls.h).
+#ifdef AT_REST
+vec3 fluid_velocity(ivec3 c) {
+    return vec3(0.0);
+}
+#else
 uniform sampler2D velocity;
+
+vec3 fluid_velocity(ivec3 c) {
+    return at(velocity, FACES, c).xyz;
+}
+#endif
 
 out vec4 b;
 
@@ -33,14 +44,14 @@ void main() {
     float top = 0.0;
     for (int lane = 0; lane < 4; ++lane) {
         ivec3 f = ivec3(c.xy, min(4 * c.z + lane, n.z));
-        vec3 u = at(velocity, FACES, f).xyz;
+        vec3 u = fluid_velocity(f);
         low_x[lane] = u.x;
         low_y[lane] = u.y;
         w[lane] = u.z;
-        high_x[lane] = at(velocity, FACES, f + ivec3(1, 0, 0)).x;
-        high_y[lane] = at(velocity, FACES, f + ivec3(0, 1, 0)).y;
+        high_x[lane] = fluid_velocity(f + ivec3(1, 0, 0)).x;
+        high_y[lane] = fluid_velocity(f + ivec3(0, 1, 0)).y;
     }
-    top = at(velocity, FACES, ivec3(c.xy, min(4 * c.z + 4, n.z))).z;
+    top = fluid_velocity(ivec3(c.xy, min(4 * c.z + 4, n.z))).z;
     vec4 low_z = w, high_z = vec4(w.yzw, top);
     vec4 z = float(4 * c.z) + vec4(0.0, 1.0, 2.0, 3.0);
 

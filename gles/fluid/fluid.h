@@ -28,7 +28,8 @@ struct StepResult {
 class Fluid {
   public:
     virtual ~Fluid() = default;
-    /// Moves on by dt_s, ending with the bodies as given. Returns at once; the GPU works on.
+    /// Moves on by dt_s, ending with the bodies as given; what the fluid decides of a coupled body is taken from there
+    /// only to start with. Returns at once and the GPU works on, unless a body is coupled.
     virtual void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) = 0;
     /// The oldest result not yet taken. Without `wait`: only if the GPU has finished it.
     virtual std::optional<StepResult> result(bool wait) = 0;
@@ -36,6 +37,8 @@ class Fluid {
     StepResult wait_result();
     /// Steps asked for since the start.
     virtual long steps() const = 0;
+    /// All bodies after the last step.
+    const std::vector<BodyState>& bodies() const { return bodies_; }
     /// Back to the start, exactly.
     virtual void reset() = 0;
 
@@ -56,6 +59,7 @@ class Fluid {
   protected:
     explicit Fluid(FluidSetup setup) : setup_(std::move(setup)) {}
     const FluidSetup setup_;
+    std::vector<BodyState> bodies_;  ///< at the end of the last step; none before the first
 };
 
 /// The solver that setup.solver.method names.

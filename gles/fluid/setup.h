@@ -51,11 +51,19 @@ struct Mesh {
 };
 using Shape = std::variant<Sphere, Cuboid, Capsule, Cylinder, Torus, Ellipsoid, Paddle, Tetrahedron, Mesh>;
 
+/// A body that the fluid moves.
+struct Coupled {
+    double density_kg_m3 = 1000.0;  ///< the same all through it
+    bool moves = true;              ///< the fluid decides the velocity of its centre; else its states say it
+    bool turns = true;              ///< and its spin
+};
+
 struct BodySetup {
     Shape shape;
-    bool inside_out = false;  ///< solid outside the shape: a container
-    bool force = true;        ///< measure the force of the fluid on it
-    bool torque = true;       ///< and the torque about its centre
+    bool inside_out = false;           ///< solid outside the shape: a container
+    bool force = true;                 ///< measure the force of the fluid on it
+    bool torque = true;                ///< and the torque about its centre
+    std::optional<Coupled> coupled{};  ///< not in Yang2009
 };
 
 /// A vector field as GLSL: one expression for each component, of the floats x, y, z [m] and t [s].

@@ -60,12 +60,14 @@ void Yang2009Fluid::reset() {
         clear(smoke_->texture());
     }
     results_.forget();
+    bodies_.clear();
     step_ = 0;
     time_s_ = 0.0;
 }
 
 void Yang2009Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool wants_diagnosis) {
     dt_s_ = dt_s;
+    bodies_ = bodies;
     body_uniforms_.set(bodies);
     if (voxels_) {
         Gpu::Stage stage(gpu_, "voxelise");

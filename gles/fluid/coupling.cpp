@@ -1,0 +1,334 @@
+#include "gles/fluid/coupling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gles/body/bounds.h"
+#include "gles/fluid/results.h"
+#include "gles/grid_io.h"
+
+namespace eddy::gles {
+namespace {
+
+/// Cells between a body and the walls: enough for the pressure to pass between them, and for no wall's face to be cut.
+constexpr double kWallGapCells = 1.0;
+/// V-cycles that improve a potential in a step, and more in the first, which starts from 0.
+constexpr int kCycles = 1, kColdCycles = 4;
+
+bool is_round(const BodySetup& body) {
+    return std::holds_alternative<Sphere>(body.shape);
+}
+
+/// Loads of the coupled bodies are measured, whatever the scene asks for; no others.
+FluidSetup measuring_coupled(FluidSetup setup) {
+    for (BodySetup& body : setup.bodies) body.force = body.torque = body.coupled.has_value();
+    return setup;
+}
+
+int width_of_loads(const FluidSetup& setup) {
+    return 2 * static_cast<int>(setup.bodies.size());
+}
+
+/// Numbers of the loads a step adds up: of the pressure, of the hydrostatic one, and of potential k.
+constexpr std::size_t kPressure = 0, kHydrostatic = 1, kPotentials = 2;
+
+int width(const FluidSetup& setup) {
+    const auto coupled = std::count_if(setup.bodies.begin(), setup.bodies.end(),
+                                       [](const BodySetup& body) { return body.coupled.has_value(); });
+    return width_of_loads(setup) * (static_cast<int>(kPotentials) + 6 * static_cast<int>(coupled));
+}
+
+Variant unit_flux(const FluidSetup& setup) {
+    return {.layouts = {{"FACES", Faces::layout(setup.cells)}, {"FRACTION", Faces4::layout(setup.cells)}},
+            .defines = {{"CELLS", glsl(setup.cells)}, {"CUT", ""}, {"AT_REST", ""}},
+            .declarations = shape_declarations(setup.bodies)};
+}
+
+Field<Cells4> hydrostatic(Gpu& gpu, const FluidSetup& setup) {
+    Field<Cells4> phi(gpu, setup.cells, Format::RGBA32F);
+    const AtlasLayout layout = phi.layout();
+    const glm::ivec2 size = layout.texels();
+    std::vector<glm::vec4> texels(static_cast<std::size_t>(size.x * size.y), glm::vec4(0.0f));
+    for (int slab = 0; slab < layout.size.z; ++slab)
+        for (int y = 0; y < layout.size.y; ++y)
+            for (int x = 0; x < layout.size.x; ++x)
+                for (int lane = 0; lane < 4; ++lane) {
+                    const glm::ivec2 t = layout.texel({x, y, slab});
+                    const glm::dvec3 from_middle =
+                        glm::dvec3(x, y, 4 * slab + lane) + 0.5 - 0.5 * glm::dvec3(setup.cells);
+                    texels[static_cast<std::size_t>(t.y * size.x + t.x)][lane] =
+                        static_cast<float>(glm::dot(setup.gravity_m_s2, from_middle));
+                }
+    phi.texture().upload(&texels[0].x);
+    return phi;
+}
+
+}  // namespace
+
+/// What came back: impulses in units of rho h^3 m/s, their moments in rho h^4 m/s.
+struct Coupling::Sums {
+    std::vector<glm::vec4> texels;
+    std::size_t bodies;
+
+    /// Load number `load`; component 0 to 2: force, 3 to 5: torque.
+    double operator()(std::size_t load, std::size_t body, std::size_t component) const {
+        const glm::vec4& texel = texels[2 * (load * bodies + body) + component / 3];
+        return static_cast<double>(texel[static_cast<glm::length_t>(component % 3)]);
+    }
+};
+
+bool Coupling::needed(const FluidSetup& setup) {
+    return std::any_of(setup.bodies.begin(), setup.bodies.end(),
+                       [](const BodySetup& body) { return body.coupled.has_value(); });
+}
+
+Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUniforms& uniforms)
+    : gpu_(gpu),
+      setup_(setup),
+      pressure_(pressure),
+      uniforms_(uniforms),
+      flux_(gpu, "flux of unit velocity", "gles/fluid/divergence.frag", Cells4::layout(setup.cells),
+            unit_flux(setup)),
+      add_(gpu, "add potentials", "gles/fluid/add_potentials.frag", Cells4::layout(setup.cells)),
+      b_(gpu, setup.cells, Format::RGBA32F),
+      traction_(gpu, measuring_coupled(setup), width(setup)),
+      row_(gpu.textures().lease({width(setup), 1}, Format::RGBA32F)),
+      readback_(gpu, {width(setup), 1}) {
+    const glm::dvec3 size = setup.cell_m * glm::dvec3(setup.cells);
+    for (std::size_t i = 0; i < setup.bodies.size(); ++i) {
+        const BodySetup& body = setup.bodies[i];
+        if (!body.coupled) continue;
+        const double radius = bounding_radius_m(body.shape);
+        const glm::dvec3 low = glm::min(glm::dvec3(radius + kWallGapCells * setup.cell_m), 0.5 * size);
+        bodies_.push_back({i, RigidBody(body.shape, body.coupled->density_kg_m3),
+                           body.coupled->density_kg_m3 / setup.density_kg_m3, radius, low, size - low});
+        for (const bool turns : {false, true}) {
+            const bool pressed = !turns || !is_round(body);
+            if (!(turns ? body.coupled->turns : body.coupled->moves)) continue;
+            if (!pressed && setup.viscosity_pa_s == 0.0) continue;  // nothing can turn it
+            Triple& triple = triples_.emplace_back();
+            triple.body = bodies_.size() - 1;
+            triple.turns = turns;
+            for (int axis = 0; pressed && axis < 3; ++axis)
+                triple.potentials.emplace_back(gpu, setup.cells, Format::RGBA32F);
+        }
+    }
+    if (setup.gravity_m_s2 != glm::dvec3(0.0)) hydrostatic_ = hydrostatic(gpu, setup);
+    reset();
+}
+
+void Coupling::reset() {
+    clear(b_.texture());
+    clear(*row_.get());
+    for (Triple& triple : triples_) {
+        for (Field<Cells4>& phi : triple.potentials) clear(phi.texture());
+        triple.trust = glm::dvec3(1.0);
+        triple.acceleration = glm::dvec3(0.0);
+    }
+    boxes_before_.clear();
+}
+
+std::vector<BodyState> Coupling::predict(const std::vector<BodyState>& given,
+                                         const std::vector<BodyState>& before, double dt_s) {
+    before_ = before.empty() ? given : before;
+    std::vector<BodyState> states = given;
+    for (Body& body : bodies_) {
+        BodyState& state = states[body.index];
+        const BodyState& old = before_[body.index];
+        const BodyState moved = body.solid.moved(old, dt_s);
+        const Coupled& coupled = *setup_.bodies[body.index].coupled;
+        if (coupled.moves) {
+            state.centre_m = glm::clamp(moved.centre_m, body.low, body.high);
+            state.velocity_m_s = old.velocity_m_s;
+        }
+        if (coupled.turns) {
+            state.orientation = moved.orientation;
+            state.spin_rad_s = old.spin_rad_s;
+        }
+    }
+    for (const Triple& triple : triples_) {
+        const Body& body = bodies_[triple.body];
+        const glm::dvec3 change = dt_s * triple.trust * triple.acceleration;
+        if (triple.turns)
+            states[body.index].spin_rad_s += change / setup_.cell_m;
+        else
+            states[body.index].velocity_m_s += change;
+    }
+    return states;
+}
+
+void Coupling::draw_potentials(const std::vector<BodyState>& states, const Step& step) {
+    std::vector<Box> touched = step.boxes;
+    touched.insert(touched.end(), boxes_before_.begin(), boxes_before_.end());
+    boxes_before_ = step.boxes;
+    const Pressure::Work work{
+        .cycles = kCycles + (step.motions.empty() ? kColdCycles : 0), .cut = step.boxes, .rough = step.boxes};
+    for (Triple& triple : triples_) {
+        const std::size_t body = bodies_[triple.body].index;
+        for (std::size_t axis = 0; axis < triple.potentials.size(); ++axis) {
+            std::vector<BodyState> unit = states;
+            for (BodyState& state : unit) state.velocity_m_s = state.spin_rad_s = glm::dvec3(0.0);
+            glm::dvec3& velocity = triple.turns ? unit[body].spin_rad_s : unit[body].velocity_m_s;
+            velocity[static_cast<glm::length_t>(axis)] = triple.turns ? 1.0 / setup_.cell_m : 1.0;
+            uniforms_.set(unit);
+            std::vector<Input> inputs = uniforms_.inputs();
+            inputs.insert(
+                inputs.end(),
+                {{"ax", &step.a.x.texture()}, {"ay", &step.a.y.texture()}, {"az", &step.a.z.texture()}});
+            flux_.draw(inputs, uniforms_.uniforms(), {&b_.texture()}, Region::packed(touched));
+            Field<Cells4>& phi = triple.potentials[axis];
+            if (!step.motions.empty()) phi = pressure_.follow(std::move(phi), {step.motions[body]});
+            phi = pressure_.solve(std::move(phi), b_, work);
+        }
+    }
+}
+
+Coupling::Sums Coupling::add_up(const std::vector<BodyState>& states, const Step& step) {
+    const int width = width_of_loads(setup_);
+    const auto draw = [&](const Field<Cells4>& phi, std::size_t load, const auto& friction) {
+        traction_.draw(phi, step.a, uniforms_, states, step.boxes, *row_, friction,
+                       width * static_cast<int>(load));
+    };
+    uniforms_.set(states);
+    draw(step.phi, kPressure, step.friction);
+    std::optional<Traction::Friction> none;
+    if (step.friction)
+        none.emplace(Traction::Friction{step.friction->velocity, step.friction->grip, 0.0f});
+    if (hydrostatic_) draw(*hydrostatic_, kHydrostatic, none);
+    for (std::size_t t = 0; t < triples_.size(); ++t)
+        for (std::size_t axis = 0; axis < triples_[t].potentials.size(); ++axis)
+            draw(triples_[t].potentials[axis], kPotentials + 3 * t + axis, none);
+    readback_.request(*row_, 0);
+    auto got = readback_.take(true);
+    if (!got) throw GlError("the GPU has stopped answering; no forces came back for the free bodies");
+    return {std::move(got->texels), setup_.bodies.size()};
+}
+
+Coupling::Unknown Coupling::unknown(std::size_t k) const {
+    const Triple& triple = triples_[k / 3];
+    const std::size_t axis = k % 3;
+    return {triple.body, bodies_[triple.body].index, axis + (triple.turns ? 3 : 0),
+            triple.turns ? 1.0 / setup_.cell_m : 1.0};
+}
+
+LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& step, const Sums& sums) {
+    const double h = setup_.cell_m, cell_mass = setup_.density_kg_m3 * h * h * h, dt = step.dt_s;
+    LinearSystem system(3 * triples_.size());
+    for (std::size_t k = 0; k < system.unknowns(); ++k) {
+        const Unknown u = unknown(k);
+        const Body& body = bodies_[u.body];
+        const BodyState& guess = states[u.index];
+        const Matrix6 mass = body.solid.mass_matrix(guess.orientation);
+        const Vector6 before = body.solid.momentum(before_[u.index], guess.orientation);
+        const Vector6 motion{guess.velocity_m_s.x, guess.velocity_m_s.y, guess.velocity_m_s.z,
+                             guess.spin_rad_s.x,   guess.spin_rad_s.y,   guess.spin_rad_s.z};
+        double momentum = before[u.component];
+        for (std::size_t c = 0; c < 6; ++c) momentum -= mass[u.component][c] * motion[c];
+        if (u.component >= 3 && !step.turning_torque_nm.empty())
+            momentum += dt * step.turning_torque_nm[u.index][static_cast<glm::length_t>(k % 3)];
+        // What the water that would be in its place weighs is what carries it at rest; exactly that, on this grid.
+        const double weight = -body.density_ratio * dt * sums(kHydrostatic, u.index, u.component);
+        system.b(k) = u.scale * momentum + cell_mass * (sums(kPressure, u.index, u.component) + weight);
+        for (std::size_t l = 0; l < system.unknowns(); ++l) {
+            const Unknown v = unknown(l);
+            const double own = v.body == u.body ? u.scale * v.scale * mass[u.component][v.component] : 0.0;
+            system.a(k, l) = own - cell_mass * sums(kPotentials + l, u.index, u.component);
+        }
+        Triple& triple = triples_[k / 3];
+        const double inertia = system.a(k, k), resisted = dt * resistance(body, triple.turns, states, dt);
+        system.a(k, k) += resisted;
+        triple.trust[static_cast<glm::length_t>(k % 3)] = inertia / (inertia + resisted);
+    }
+    return system;
+}
+
+double Coupling::room_m(const Body& body, const std::vector<BodyState>& states) const {
+    const glm::dvec3& here = states[body.index].centre_m;
+    const glm::dvec3 to_walls = glm::min(here, setup_.cell_m * glm::dvec3(setup_.cells) - here);
+    double room = std::min({to_walls.x, to_walls.y, to_walls.z}) - body.radius_m;
+    for (std::size_t i = 0; i < setup_.bodies.size(); ++i) {
+        if (i == body.index) continue;
+        const double far = glm::distance(here, states[i].centre_m);
+        const double other = bounding_radius_m(setup_.bodies[i].shape);
+        room = std::min(room, (setup_.bodies[i].inside_out ? other - far : far - other) - body.radius_m);
+    }
+    return std::max(room, setup_.cell_m);
+}
+
+double Coupling::resistance(const Body& body, bool turns, const std::vector<BodyState>& states,
+                            double dt_s) const {
+    if (setup_.viscosity_pa_s == 0.0) return 0.0;
+    // Of the ball around the body, as nothing that fits into a ball resists more than it: Stokes; the layer that starts to
+    // move within one step (Basset); and what is squeezed out before a wall (a / gap times Stokes: Cox, Brenner 1967, Chem.
+    // Eng. Sci. 22). With half of this a ball of 1 % of the fluid's density became unstable in fluids so thick that the
+    // step is longer than all it takes to set them moving; so there is half as much more.
+    const double r = body.radius_m, nu = setup_.viscosity_pa_s / setup_.density_kg_m3;
+    const double layer = 2.0 * r / std::sqrt(std::numbers::pi * nu * dt_s);
+    const double h = setup_.cell_m;
+    const double moved = turns ? 8.0 * r * r * r / (h * h) * (1.0 + layer)
+                               : 6.0 * r * (1.0 + layer + r / room_m(body, states));
+    return 1.5 * std::numbers::pi * setup_.viscosity_pa_s * moved;
+}
+
+std::vector<double> Coupling::stop_at_walls(LinearSystem system, const std::vector<BodyState>& states,
+                                            double dt_s) {
+    std::vector<double> change = system.solve();
+    // One after the other: with one stopped, another may be led into its wall, or no longer.
+    for (std::size_t k = 0; k < change.size(); ++k) {
+        const Unknown u = unknown(k);
+        const Body& body = bodies_[u.body];
+        const auto axis = static_cast<glm::length_t>(k % 3);
+        Triple& triple = triples_[k / 3];
+        if (triple.turns || triple.stopped[axis]) continue;
+        const double here = states[u.index].centre_m[axis], guess = states[u.index].velocity_m_s[axis];
+        const double next = here + dt_s * (guess + change[k]);
+        const double inside = std::clamp(next, body.low[axis], body.high[axis]);
+        if (next == inside) continue;
+        system.fix(k, (inside - here) / dt_s - guess);
+        change = system.solve();
+        triple.stopped[axis] = true;
+        k = 0;
+    }
+    return change;
+}
+
+void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
+    draw_potentials(states, step);
+    for (Triple& triple : triples_) triple.stopped = glm::bvec3(false);
+    const std::vector<double> change =
+        stop_at_walls(newton(states, step, add_up(states, step)), states, step.dt_s);
+    for (std::size_t t = 0; t < triples_.size(); ++t) {
+        Triple& triple = triples_[t];
+        triple.change = {change[3 * t], change[3 * t + 1], change[3 * t + 2]};
+        BodyState& state = states[bodies_[triple.body].index];
+        const BodyState& old = before_[bodies_[triple.body].index];
+        glm::dvec3 gained;
+        if (triple.turns) {
+            state.spin_rad_s += triple.change / setup_.cell_m;
+            gained = setup_.cell_m * (state.spin_rad_s - old.spin_rad_s);
+        } else {
+            state.velocity_m_s += triple.change;
+            gained = state.velocity_m_s - old.velocity_m_s;
+        }
+        // What a wall took is no sign of what comes next.
+        triple.acceleration = glm::mix(gained / step.dt_s, glm::dvec3(0.0), triple.stopped);
+    }
+    uniforms_.set(states);
+}
+
+Field<Cells4> Coupling::add_to(Field<Cells4> phi) {
+    for (const Triple& triple : triples_) {
+        if (triple.potentials.empty()) continue;
+        Field<Cells4> sum(gpu_, setup_.cells, Format::RGBA32F);
+        add_.draw({{"phi", &phi.texture()},
+                   {"phi_x", &triple.potentials[0].texture()},
+                   {"phi_y", &triple.potentials[1].texture()},
+                   {"phi_z", &triple.potentials[2].texture()}},
+                  {{"v", glm::vec3(triple.change)}}, {&sum.texture()});
+        phi = std::move(sum);
+    }
+    return phi;
+}
+
+}  // namespace eddy::gles

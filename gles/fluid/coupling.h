@@ -1,0 +1,113 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "gles/body/rigid_body.h"
+#include "gles/body/traction.h"
+#include "gles/fluid/pressure.h"
+#include "gles/linear_system.h"
+#include "gles/readback.h"
+
+namespace eddy::gles {
+
+/// Bodies that the fluid moves: free ones, and held ones that turn in the hand.
+///
+/// The pressure is linear in their velocities, so fluid and bodies are solved for together and light bodies are as
+/// stable as heavy ones. phi_g is the pressure for a guess V_g of the velocities, phi_k what it gains when velocity k grows
+/// by 1 (the potential of Kirchhoff; kept from step to step, moved along, and improved by a V-cycle). With the forces
+/// J phi of a pressure, Newton's law for the velocities V at the end of the step is a small system of equations:
+///
+///   (M + M_a + dt D) (V - V_g) = M V_before - M V_g + rho h^3 (J phi_g + friction) + dt weight,
+///   M_a = -rho h^3 J phi_k    the added mass
+///
+/// and the pressure of the step is phi_g + sum (V - V_g) phi_k. Friction is what V_g causes; D, an estimate of its
+/// resistance to more, keeps light bodies stable in thick fluids and is multiplied by 0 when the motion is steady.
+///
+/// The sums J phi must be known before the step can end: a scene with such a body waits for the GPU once a step.
+///
+/// A body is stopped one cell before the tank's walls, as if the ball around its centre that holds it were soft clay: what
+/// of its velocity leads into the wall is lost. Bodies do not feel each other except through the fluid.
+class Coupling {
+  public:
+    /// `pressure` and `uniforms` must outlive this.
+    Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUniforms& uniforms);
+    /// Whether any body is moved by the fluid.
+    static bool needed(const FluidSetup& setup);
+
+    /// The bodies where they are at the end of the step, with a guess of their velocities there. Of coupled ones, `given`
+    /// is where they start; `before` are all bodies after the last step, empty before the first.
+    std::vector<BodyState> predict(const std::vector<BodyState>& given, const std::vector<BodyState>& before,
+                                   double dt_s);
+
+    struct Step {
+        const Field<Cells4>& phi;  ///< for the guess
+        const FaceFractions& a;
+        const std::vector<Box>& boxes;
+        std::vector<BodyMotion> motions;                   ///< empty in the first step
+        std::optional<Traction::Friction> friction;        ///< if the fluid is viscous
+        const std::vector<glm::dvec3>& turning_torque_nm;  ///< of friction too, body by body; may be empty
+        double dt_s;
+    };
+    /// Solves for the velocities at the end of the step, puts them into `states`, and leaves the uniforms with them.
+    void solve(std::vector<BodyState>& states, const Step& step);
+    /// phi for those velocities from one for the guess.
+    Field<Cells4> add_to(Field<Cells4> phi);
+    /// Forgets everything about the last step.
+    void reset();
+
+  private:
+    struct Body {
+        std::size_t index;
+        RigidBody solid;
+        double density_ratio;  ///< to the fluid's
+        double radius_m;       ///< of the ball that holds it
+        glm::dvec3 low, high;  ///< where its centre may be [m]
+    };
+    /// Three velocities that the fluid decides: of a body's centre, in m/s, or of its turning, in m/s per cell.
+    struct Triple {
+        std::size_t body = 0;  ///< in bodies_
+        bool turns = false;
+        std::vector<Field<Cells4>> potentials{};  ///< phi_k; none if pressure cannot turn it
+        glm::dvec3 acceleration{0.0};             ///< in the last step
+        glm::dvec3 trust{1.0};                    ///< share of it that the next guess goes on with
+        glm::dvec3 change{0.0};                   ///< V - V_g
+        glm::bvec3 stopped{false};                ///< by a wall
+    };
+    /// Velocity number k = 3 (triple) + axis: which body (in bodies_, in the scene), which of its six velocities, and what
+    /// makes SI of it.
+    struct Unknown {
+        std::size_t body, index, component;
+        double scale;
+    };
+    struct Sums;
+
+    Unknown unknown(std::size_t k) const;
+    /// phi_k, where the bodies are now.
+    void draw_potentials(const std::vector<BodyState>& states, const Step& step);
+    /// J phi of all pressures.
+    Sums add_up(const std::vector<BodyState>& states, const Step& step);
+    LinearSystem newton(const std::vector<BodyState>& states, const Step& step, const Sums& sums);
+    /// From the ball around a body to the nearest wall or body, at least one cell.
+    double room_m(const Body& body, const std::vector<BodyState>& states) const;
+    /// D.
+    double resistance(const Body& body, bool turns, const std::vector<BodyState>& states, double dt_s) const;
+    /// V - V_g.
+    std::vector<double> stop_at_walls(LinearSystem system, const std::vector<BodyState>& states, double dt_s);
+
+    Gpu& gpu_;
+    const FluidSetup& setup_;
+    Pressure& pressure_;
+    BodyUniforms& uniforms_;
+    std::vector<Body> bodies_;
+    std::vector<Triple> triples_;
+    std::vector<BodyState> before_;  // all bodies, at the end of the last step
+    std::vector<Box> boxes_before_;
+    Pass flux_, add_;
+    Field<Cells4> b_;                           // of a unit velocity; 0 away from the bodies
+    std::optional<Field<Cells4>> hydrostatic_;  // g . x [m/s^2 cells]
+    Traction traction_;
+    TexturePool::Lease row_;
+    Readback readback_;
+};
+
+}  // namespace eddy::gles

@@ -1,0 +1,137 @@
+#include <cmath>
+#include <numbers>
+
+#include "tests/physics/tank.h"
+
+namespace eddy::gles {
+namespace {
+
+using FreeBody = GlTest;
+
+constexpr int kCells = 24;
+const BodyState kMiddle{.centre_m = glm::dvec3(0.5 * kCells)};
+
+/// A tank of n^3 cells of 1 m, water of 1 kg/m3, gravity 1 m/s2, and a free body that starts in the middle.
+FluidSetup well(const Shape& shape, double density, double viscosity = 0.0, int n = kCells) {
+    FluidSetup s = unit_tank(glm::ivec3(n), 0.0, Advection::SemiLagrangian, 3);
+    s.gravity_m_s2 = {0.0, -1.0, 0.0};
+    s.viscosity_pa_s = viscosity;
+    s.bodies = {BodySetup{.shape = shape, .coupled = Coupled{.density_kg_m3 = density}}};
+    return s;
+}
+
+TEST_F(FreeBody, SetsOffWithItsWeightLessBuoyancyOverItsMassAndAddedMass) {
+    // C_m in the middle of a cubic tank with slip walls, by radius / edge (method of fundamental solutions).
+    constexpr double kAddedMass[][2] = {{0.15, 0.52493}, {0.20, 0.56047}};
+    for (const auto& [a_over_l, c] : kAddedMass)
+        for (const double ratio : {0.01, 0.1, 2.0}) {
+            const std::unique_ptr<Fluid> fluid =
+                make_fluid(gpu, well(Sphere{32.0 * a_over_l}, ratio, 0.0, 32));
+            const double dt = 0.05;
+            fluid->step(dt, {{.centre_m = glm::dvec3(16.0)}}, false);
+            const glm::dvec3 acceleration = fluid->bodies()[0].velocity_m_s / dt;
+            const double exact = -(ratio - 1.0) / (ratio + c);
+            record(fmt::format("a_{}_{}", a_over_l, ratio).c_str(), acceleration.y / exact);
+            EXPECT_NEAR(acceleration.y, exact, 0.03 * std::abs(exact));
+            EXPECT_LT(std::abs(acceleration.x) + std::abs(acceleration.z), 1e-3 * std::abs(exact));
+        }
+}
+
+TEST_F(FreeBody, ChangesItsMomentumByTheForceOfTheFluidAndItsWeight) {
+    // Newton's law, step by step and to rounding, while a light ball speeds up and glides over the cells.
+    const double ratio = 0.1, dt = 0.1;
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, well(Sphere{3.6}, ratio));
+    const double mass = ratio * 4.0 / 3.0 * std::numbers::pi * std::pow(3.6, 3);
+    glm::dvec3 before(0.0);
+    double weight = 0.0;
+    for (int i = 0; i < 20; ++i) {
+        fluid->step(dt, {kMiddle}, false);
+        const glm::dvec3 now = fluid->bodies()[0].velocity_m_s;
+        const glm::dvec3 force = fluid->wait_result().loads[0].force_n;
+        const glm::dvec3 rest = mass * (now - before) / dt - force;
+        weight = std::max(weight, std::abs(rest.y + mass));
+        EXPECT_LT(std::abs(rest.x) + std::abs(rest.z), 1e-4 * mass);
+        before = now;
+    }
+    // A body weighs what its density makes of the fluid it displaces on the grid, which is not quite its volume.
+    record("weight_error", weight / mass);
+    EXPECT_LT(weight, 0.002 * mass);
+}
+
+TEST_F(FreeBody, RisesWithoutEverTurningBackWhenItIsLight) {
+    // A hundred times lighter than the fluid, and far lighter than its added mass: in water, syrup and tar.
+    for (const double viscosity : {0.0, 1.0, 1000.0}) {
+        const std::unique_ptr<Fluid> fluid = make_fluid(gpu, well(Sphere{3.6}, 0.01, viscosity));
+        double speed = 0.0, height = kMiddle.centre_m.y;
+        for (int i = 0; i < 30; ++i) {
+            fluid->step(0.1, {kMiddle}, false);
+            const BodyState& ball = fluid->bodies()[0];
+            EXPECT_GT(ball.velocity_m_s.y, 0.9 * speed) << "viscosity " << viscosity << ", step " << i;
+            EXPECT_GE(ball.centre_m.y, height);
+            speed = ball.velocity_m_s.y;
+            height = ball.centre_m.y;
+        }
+        record(fmt::format("speed_{}", viscosity).c_str(), speed);
+    }
+}
+
+TEST_F(FreeBody, StaysWhereItIsWhenItWeighsWhatTheWaterDoes) {
+    for (const Shape& shape : {Shape(Sphere{3.6}), Shape(Cuboid{{4.0, 6.0, 3.0}})}) {
+        const std::unique_ptr<Fluid> fluid = make_fluid(gpu, well(shape, 1.0));
+        const BodyState start{.centre_m = {12.2, 11.7, 12.4},
+                              .orientation = glm::angleAxis(0.5, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)))};
+        for (int i = 0; i < 30; ++i) fluid->step(0.1, {start}, false);
+        // Falling for these 3 s it would come 4.5 cells far.
+        const double strayed = glm::distance(fluid->bodies()[0].centre_m, start.centre_m);
+        record("strayed", strayed);
+        EXPECT_LT(strayed, 1e-3);
+    }
+}
+
+TEST_F(FreeBody, FallsWithTheSpeedAtWhichStokesDragCarriesItsWeight) {
+    // A ball of radius 0.2 L in the middle of a no-slip cube meets 3.12346 times Stokes' drag (Stokeslets, method of fundamental
+    // solutions).
+    FluidSetup setup = well(Sphere{4.8}, 1.01, 100.0);
+    setup.solver.viscous_cycles = 3;
+    for (WallSetup& wall : setup.walls) wall.kind = WallKind::NoSlip;
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    for (int i = 0; i < 40; ++i) fluid->step(0.1, {kMiddle}, false);
+    const double excess = 0.01 * 4.0 / 3.0 * std::numbers::pi * std::pow(4.8, 3);
+    const double exact = excess / (6.0 * std::numbers::pi * 100.0 * 4.8 * 3.12346);
+    const double speed = -fluid->bodies()[0].velocity_m_s.y;
+    record("speed_over_exact", speed / exact);
+    EXPECT_NEAR(speed, exact, 0.03 * exact);
+}
+
+TEST_F(FreeBody, IsStoppedByTheWallsAndStaysThere) {
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, well(Sphere{3.6}, 5.0));
+    for (int i = 0; i < 70; ++i) fluid->step(0.1, {kMiddle}, false);
+    const BodyState& ball = fluid->bodies()[0];
+    EXPECT_NEAR(ball.centre_m.y, 4.6, 1e-9) << "one cell above the floor";
+    EXPECT_EQ(ball.velocity_m_s.y, 0.0);
+}
+
+TEST_F(FreeBody, StartsAgainFromTheSamePlaceAfterAReset) {
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, well(Sphere{3.6}, 0.1));
+    std::vector<glm::dvec3> ends;
+    for (int run = 0; run < 2; ++run) {
+        for (int i = 0; i < 5; ++i) fluid->step(0.1, {kMiddle}, false);
+        ends.push_back(fluid->bodies()[0].centre_m);
+        fluid->reset();
+    }
+    EXPECT_EQ(ends[0], ends[1]);
+}
+
+TEST_F(FreeBody, CostsAFixedOneNothing) {
+    FluidSetup setup = well(Sphere{3.6}, 0.1);
+    setup.bodies[0].coupled.reset();
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    std::vector<PassRecord> records;
+    gpu.record(&records);
+    fluid->step(0.1, {kMiddle}, false);
+    gpu.record(nullptr);
+    for (const PassRecord& record : records) EXPECT_NE(record.stage, "coupling");
+}
+
+}  // namespace
+}  // namespace eddy::gles
