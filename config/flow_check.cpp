@@ -71,6 +71,8 @@ class FlowCheck {
         idle("fluid.gravity_m_s2", scene_.fluid.gravity_m_s2 != glm::dvec3(0.0));
         idle("initial.velocity_m_s", scene_.initial.velocity_m_s != FormulaVector{});
         idle("initial.velocity_npy", !scene_.initial.velocity_npy.empty());
+        idle("solver.cycles", scene_.solver.cycles.has_value());
+        idle("solver.time_order", scene_.solver.time_order != 1);
         idle("tank.walls", scene_.tank.walls != Scene::Walls{});
         for (std::size_t i = 0; i < scene_.sources.size(); ++i)
             idle(item("source", i) + ".velocity_m_s", scene_.sources[i].velocity_m_s.has_value());
@@ -99,6 +101,7 @@ class FlowCheck {
         not_yang("fluid.gravity_m_s2", scene_.fluid.gravity_m_s2 != glm::dvec3(0.0), another);
         not_yang("vorticity_confinement", scene_.vorticity_confinement.has_value(), another);
         not_yang("forcing", scene_.forcing.has_value(), another);
+        not_yang("imposed", scene_.imposed.has_value(), another);
         not_yang("temperature", scene_.temperature.has_value(), another);
         not_yang("smoke.initial", scene_.smoke && scene_.smoke->initial != Formula(), another);
         const Scene::Walls& w = scene_.tank.walls;

@@ -12,7 +12,6 @@ void refuse_what_is_not_in_this_version(const Scene& scene, Findings& findings) 
     const auto not_in_this_version = [&](const std::string& key, bool used) {
         if (used) rules.blame(key, "not in this version of eddy");
     };
-    not_in_this_version("imposed", scene.imposed.has_value());
     not_in_this_version("initial.velocity_npy", !scene.initial.velocity_npy.empty());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const Scene::Body& body = scene.bodies[i];

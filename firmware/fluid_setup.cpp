@@ -113,6 +113,8 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
                wall_setup(w.z_low, all_glsl), wall_setup(w.z_high, all_glsl)};
     if (scene.vorticity_confinement) s.confinement_1_s = scene.vorticity_confinement->strength_1_s;
     if (scene.forcing) s.acceleration_m_s2 = glsl(scene.forcing->acceleration_m_s2, all_glsl);
+    if (scene.imposed)
+        s.imposed = {glsl(scene.imposed->velocity_m_s, all_glsl), !scene.imposed->velocity_m_s.uses('t')};
     s.formula_helpers = formula_helpers(all_glsl);
     s.velocity_at_start = [u = scene.initial.velocity_m_s](const glm::dvec3& x_m) {
         return u.evaluate(x_m, 0.0);

@@ -53,7 +53,7 @@ std::string to_json(const Summary& s, const LoadedScene& loaded, const gles::Gpu
     j["steps"] = s.steps;
     j["simulated_s"] = s.seconds;
     j["wall_s"] = s.wall_s;
-    j["least_divergence_cut"] = s.divergence_cut;
+    if (!loaded.scene.imposed) j["least_divergence_cut"] = s.divergence_cut;
     for (std::size_t i = 0; i < loaded.scene.bodies.size(); ++i) {
         const gles::Load& load = s.last.loads[i];
         j["bodies"].push_back({{"name", loaded.scene.bodies[i].name},
@@ -153,8 +153,10 @@ int simulate(const SimulateOptions& options) {
 
     fmt::print("{}: {} steps of {} s on {}\n", scene.title.empty() ? options.scene : scene.title,
                summary.steps, dt, graphics->gpu.capabilities().renderer);
-    fmt::print("{:.1f} steps/s; each step cut the divergence by a factor of {:.0f} or more\n",
-               static_cast<double>(steps) / summary.wall_s, summary.divergence_cut);
+    fmt::print("{:.1f} steps/s", static_cast<double>(steps) / summary.wall_s);
+    if (!scene.imposed)
+        fmt::print("; each step cut the divergence by a factor of {:.0f} or more", summary.divergence_cut);
+    fmt::print("\n");
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const glm::dvec3 f = summary.last.loads[i].force_n;
         fmt::print("force on {} at the end: ({:.4e}, {:.4e}, {:.4e}) N\n", scene.bodies[i].name, f.x, f.y,

@@ -62,7 +62,7 @@ class Fluid {
     std::vector<BodyState> bodies_;  ///< at the end of the last step; none before the first
 };
 
-/// The solver that setup.solver.method names.
+/// The solver that setup.solver.method names, or none if the flow is imposed.
 std::unique_ptr<Fluid> make_fluid(Gpu& gpu, const FluidSetup& setup);
 
 }  // namespace eddy::gles

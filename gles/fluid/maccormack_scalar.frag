@@ -28,6 +28,7 @@ void main() {
     vec4 least, most;
     donors(scalar, TARGET, x - displacement, least, most);
     float back = sample_linear(forward, TARGET, x + displacement).x;
-    float s = at(forward, TARGET, c).x + 0.5 * (at(scalar, TARGET, c).x - back);
+    // Where the way back leaves the tank through an opening nothing is known of the error.
+    float s = at(forward, TARGET, c).x + 0.5 * from_inside(x + displacement) * (at(scalar, TARGET, c).x - back);
     result = remains * from_inside(x - displacement) * clamp(s, least.x, most.x) + from_sources(x);
 }

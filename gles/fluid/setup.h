@@ -109,6 +109,12 @@ struct TemperatureSetup {
     std::function<double(const glm::dvec3&)> at_start_k{};
 };
 
+/// The flow, where it is not solved for.
+struct ImposedSetup {
+    VectorFormula velocity_m_s{};
+    bool steady = false;  ///< the formula has no t in it
+};
+
 enum class Method {
     CutCell,  ///< staggered grid, volume fractions of the body, multigrid
     Yang2009  ///< the paper: collocated grid, four cell types, Jacobi
@@ -142,8 +148,9 @@ struct FluidSetup {
     glm::dvec3 gravity_m_s2{0.0};
     std::array<WallSetup, 6> walls{};                  ///< x low, x high, y low, y high, z low, z high
     std::optional<VectorFormula> acceleration_m_s2{};  ///< a force on all of the fluid, per mass
-    double confinement_1_s = 0.0;   ///< eps of vorticity confinement, f = eps h (N x w); 0: none
-    std::string formula_helpers{};  ///< GLSL functions that the formulas call
+    double confinement_1_s = 0.0;           ///< eps of vorticity confinement, f = eps h (N x w); 0: none
+    std::optional<ImposedSetup> imposed{};  ///< walls, bodies and forces do nothing then
+    std::string formula_helpers{};          ///< GLSL functions that the formulas call
     /// Velocity at the start at a place of the tank [m]; empty: at rest.
     std::function<glm::dvec3(const glm::dvec3&)> velocity_at_start{};
     std::optional<SmokeSetup> smoke{};

@@ -66,6 +66,19 @@ TEST(Plan, HasOnlyTheHeatThatTheSceneHas) {
     EXPECT_FALSE(none.names("heat") || none.names("R32F") || none.names("temperature")) << none.text;
 }
 
+TEST(Plan, OfAnImposedFlowIsTransportAlone) {
+    const ScratchFolder folder;
+    const auto plan = [&](const std::string& u) {
+        return plan_of({folder.write(
+            "scene.toml", "[tank]\ncells = [16, 16, 16]\n[smoke]\n[imposed]\nvelocity_m_s = " + u)});
+    };
+    const PrintedPlan steady = plan("[\"-y\", \"x\", 0]\n"), waving = plan("[\"cos(t)\", 0, 0]\n");
+    EXPECT_EQ(steady.total[0], 1) << steady.text;  // drawn once, before
+    EXPECT_TRUE(steady.names("advect smoke")) << steady.text;
+    EXPECT_EQ(waving.total[0], 2) << waving.text;
+    EXPECT_TRUE(waving.names("imposed flow")) << waving.text;
+}
+
 TEST(Plan, WithoutABodyHasNoFractionsAndNoForce) {
     const ScratchFolder folder;
     const std::string scene = folder.write("empty.toml", "[tank]\ncells = [16, 16, 16]\n");

@@ -127,6 +127,11 @@ const std::pair<std::string_view, std::string_view> kEffects[] = {
      "[temperature]\nexpansion_1_k = 0.0034\ndiffusivity_m2_s = 0.01\ninitial_k = \"100 * y\"\n"
      "[[source]]\ncentre_m = [0.08, 0.03, 0.08]\nradius_m = 0.02\ntemperature_k_per_s = 40\n"
      "[[body]]\nradius_m = 0.02\ncentre_m = [0.08, 0.08, 0.08]\n"},
+    {"imposed_steady",
+     "[tank]\ncells = [16, 16, 16]\n[smoke]\n[imposed]\nvelocity_m_s = [\"-y\", \"x\", 0]\n"},
+    {"imposed_waving",
+     "[tank]\ncells = [16, 16, 16]\n[smoke]\n[temperature]\ndiffusivity_m2_s = 1e-4\n"
+     "[imposed]\nvelocity_m_s = [\"cos(t)\", 0, 0]\n"},
 };
 
 class DrawnEffect : public gles::GlTest,
