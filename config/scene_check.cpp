@@ -1,7 +1,5 @@
 #include "config/scene_check.h"
 
-#include <algorithm>
-
 #include "config/scene_rules.h"
 
 namespace eddy {
@@ -20,11 +18,7 @@ void refuse_what_is_not_in_this_version(const Scene& scene, Findings& findings) 
         not_in_this_version(path + ".turning", body.turning);
     }
     not_in_this_version("solver.time_order", scene.solver.time_order != 1);
-    not_in_this_version("probe", !scene.probes.empty());
     not_in_this_version("outputs.force_methods", scene.outputs.force_methods);
-    const auto& fields = scene.outputs.fields;
-    not_in_this_version("outputs.fields",
-                        std::count(fields.begin(), fields.end(), OutputField::Vorticity) > 0);
 }
 
 void check(const Scene& scene, Findings& findings) {

@@ -90,7 +90,11 @@ void describe(Visitor& v, Scene& s) {
     v.table("solver", s.solver, "How the flow is computed.");
     v.table("haptics", s.haptics, "How the hand is coupled to the held body.");
     v.table("render", s.render, "The picture.");
-    v.list("probe", s.probes, "A quantity at a point, or along a line, as columns of series.csv.");
+    v.list("probe", s.probes,
+           "A quantity at a point, or along a line, as columns of series.csv: `wake_velocity_x_m_s`, "
+           "`wake_pressure_pa`, "
+           "`wake_smoke`, `wake_temperature_k` for a probe named `wake`; along a line `wake_1_...`, "
+           "`wake_2_...`.");
     v.table("outputs", s.outputs, "What a simulation writes.");
 }
 

@@ -12,10 +12,12 @@
 #include "firmware/graphics.h"
 #include "firmware/npy.h"
 #include "firmware/plan.h"
+#include "firmware/probes.h"
 #include "firmware/progress.h"
 #include "firmware/series.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/verbs.h"
+#include "firmware/vorticity.h"
 #include "gles/fluid/fluid.h"
 #include "gles/grid_io.h"
 
@@ -77,6 +79,9 @@ void write_fields(const std::filesystem::path& out, const Scene& scene, const gl
             const int extra = static_cast<int>(u.size()) == n.x * n.y * n.z ? 0 : 1;  // faces: one layer more
             write_npy(out / "velocity.npy", {&u[0].x, 3 * u.size()},
                       {n.z + extra, n.y + extra, n.x + extra, 3});
+        } else if (field == OutputField::Vorticity) {
+            const std::vector<glm::vec3> curl = vorticity(fluid.velocity(), n, scene.tank.cell_m());
+            write_npy(out / "vorticity.npy", {&curl[0].x, 3 * curl.size()}, {n.z, n.y, n.x, 3});
         } else if (field == OutputField::Pressure) {
             write_npy(out / "pressure.npy", fluid.pressure(), {n.z, n.y, n.x});
         } else {
@@ -115,12 +120,14 @@ int simulate(const SimulateOptions& options) {
     }
 
     const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(graphics->gpu, setup);
+    const Probes probes(scene);
     std::optional<Series> series;
     if (!options.out.empty()) {
         std::vector<std::string> names;
         for (const Scene::Body& body : scene.bodies) names.push_back(body.name);
         std::vector<std::string> more;
         if (scene.temperature) more.emplace_back("temperature_total_k_m3");
+        for (std::string& column : probes.columns()) more.push_back(std::move(column));
         if (scene.outputs.series)
             series.emplace(std::filesystem::path(options.out) / "series.csv", names, more);
     }
@@ -143,7 +150,9 @@ int simulate(const SimulateOptions& options) {
         if (series) {
             std::vector<double> more;
             if (scene.temperature) more.push_back(result.diagnostics->temperature_total);
-            series->add(t, result, milliseconds_since(step_start), more);
+            const double step_ms = milliseconds_since(step_start);
+            for (const double value : probes.read(*fluid)) more.push_back(value);
+            series->add(t, result, step_ms, more);
         }
         progress.show(static_cast<double>(n), static_cast<double>(steps));
     }

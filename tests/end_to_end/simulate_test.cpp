@@ -132,6 +132,32 @@ TEST(Simulate, WritesTheHeatOfAWarmTank) {
                 1e-7);
 }
 
+TEST(Simulate, WritesWhatProbesMeasureAndTheVorticity) {
+    const ScratchFolder folder;
+    const std::string scene =
+        folder.write("turn.toml",
+                     "[tank]\nsize_m = [0.1, 0.2, 0.2]\ncells = [8, 16, 16]\n"
+                     "[imposed]\nvelocity_m_s = [\"-3 * y\", \"3 * x\", \"t\"]\n"
+                     "[[probe]]\nname = \"hub\"\nquantity = \"velocity\"\npoint_m = [0.01, 0.02, 0.03]\n"
+                     "[solver]\ndt_s = 0.5\n[outputs]\nfields = [\"vorticity\"]\n");
+    const std::string out = folder / "out";
+    const Ended ended = eddy({"simulate", scene, "--steps", "2", "--out", out});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_EQ(ended.out.find("divergence"), std::string::npos) << ended.out;
+    const std::vector<std::string> lines = lines_of(read_all(out + "/series.csv"));
+    ASSERT_EQ(lines.size(), 3u);
+    const std::vector<std::string> last = split(lines[2], ',');
+    ASSERT_EQ(last.size(), 16u) << lines[2];
+    EXPECT_EQ(split(lines[0], ',').at(13), "hub_velocity_x_m_s");
+    EXPECT_NEAR(std::stod(last[13]), -0.06, 1e-6);
+    EXPECT_NEAR(std::stod(last[14]), 0.03, 1e-6);
+    EXPECT_NEAR(std::stod(last[15]), 1.0, 1e-6);
+    const Npy curl = read_npy(out + "/vorticity.npy");
+    EXPECT_EQ(curl.shape, (std::vector<std::size_t>{16, 16, 8, 3}));
+    for (std::size_t i = 0; i < curl.values.size(); ++i)
+        EXPECT_NEAR(curl.values[i], i % 3 == 2 ? 6.0 : 0.0, 1e-3);
+}
+
 TEST(Simulate, ReplacesAnEarlierResult) {
     const ScratchFolder folder;
     const std::string out = folder / "out";
