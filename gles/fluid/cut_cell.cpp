@@ -129,8 +129,10 @@ std::vector<glm::vec3> CutCellFluid::velocity_at_start() const {
     for (int z = 0; z <= n.z; ++z)
         for (int y = 0; y <= n.y; ++y)
             for (int x = 0; x <= n.x; ++x, ++i) {
-                const glm::dvec3 corner(x, y, z);
+                // Beyond an upper wall: a copy of the last row before it, as velocity.glsl has it.
+                const glm::dvec3 wall(x, y, z), row = glm::min(wall, glm::dvec3(n) - 1.0);
                 const auto on_face = [&](const glm::dvec3& face) {
+                    const glm::dvec3 corner = glm::mix(wall, row, 2.0 * face);
                     return setup_.velocity_at_start(setup_.cell_m * (corner + face));
                 };
                 u[i] = glm::vec3(on_face({0.0, 0.5, 0.5}).x, on_face({0.5, 0.0, 0.5}).y,

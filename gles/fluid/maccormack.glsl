@@ -3,9 +3,10 @@
 // Selle, Fedkiw, Kim, Liu, Rossignac 2008, "An unconditionally stable MacCormack method": phi^ is traced forward, phi~
 // traced back from phi^; half their error is taken out. The limiter makes it stable and free of new extremes.
 
-// Least and greatest of the eight values around s (cells, centres at +1/2), all channels.
+// Least and greatest of the up to eight values around s (cells, centres at +1/2), all channels.
 void donors(sampler2D field, const Layout l, vec3 s, out vec4 least, out vec4 most) {
-    ivec3 low = ivec3(clamp(s, vec3(0.5), vec3(l.size) - 0.5) - 0.5), high = min(low + 1, l.size - 1);
+    vec3 p = clamp(s, vec3(0.5), vec3(l.size) - 0.5) - 0.5;
+    ivec3 low = ivec3(p), high = ivec3(ceil(p));  // the same where a neighbour has no weight, so no side is preferred
     ivec2 below = texel_of(l, ivec3(0, 0, low.z)), above = texel_of(l, ivec3(0, 0, high.z));
     vec4 a = texelFetch(field, below + low.xy, 0), b = texelFetch(field, below + ivec2(high.x, low.y), 0);
     vec4 c = texelFetch(field, below + ivec2(low.x, high.y), 0), d = texelFetch(field, below + high.xy, 0);

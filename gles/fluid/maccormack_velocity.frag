@@ -13,11 +13,17 @@ uniform float dt_h;  // dt / h  [s/m]
 
 out vec4 result;
 
+// Beyond its last row before an upper wall u holds copies of that row, as clamping makes them at a lower wall. u^ does not.
+vec3 within_rows(int component, vec3 s) {
+    return min(s, vec3(FACES.size) - 1.5 + vec3(equal(ivec3(component), ivec3(0, 1, 2))));
+}
+
 // One component; near a wall the fluid sticks to, the wall is a donor too.
 float corrected(int component, vec3 s, vec3 displacement, vec4 here, vec4 ahead) {
     vec4 least, most;
     donors(velocity, FACES, s - displacement, least, most);
-    float back = to_walls(sample_linear(forward, FACES, s + displacement)[component], component, s + displacement);
+    float back = to_walls(sample_linear(forward, FACES, within_rows(component, s + displacement))[component], component,
+                          s + displacement);
     float donor = to_walls(ahead[component], component, s - displacement);
     return clamp(ahead[component] + 0.5 * (here[component] - back), min(least[component], donor),
                  max(most[component], donor));
