@@ -10,6 +10,8 @@
 // p grad(1 - a) is -p n dA in the form that does exactly the work the projection does on the fluid: with it,
 // force . U is the power that the body gives, to rounding. Times rho h^3 / dt it is newtons (rho h^4 / dt: newton metres).
 // VISCOUS adds what the fluid gave where the body holds it, lambda w (u - u_surface): what viscous.glsl took from it.
+// That is mu du/dn; the traction is mu (du/dn + (grad u)^T n). Where the fluid sticks to a body that moves as u = U + s x r,
+// the second part is n x s, because div u = 0 leaves no other: a torque, mu r x (n x s) dA, and no force.
 #ifdef VISCOUS
 uniform sampler2D velocity, distances, grips, surface;
 uniform float lambda;  // nu dt / h^2
@@ -47,6 +49,13 @@ void add_friction(ivec3 c) {
 }
 #endif
 
+// 1 for the faces of the cell around x, on its upper (0.5) or lower (-0.5) sides, whose solid share is this body's. Each has
+// its own, as in divergence.frag: between bodies that nearly touch, a cell's faces belong to both.
+vec3 own(vec3 x, float side) {
+    return vec3(nearest_body(x + vec3(side, 0.0, 0.0)) == body, nearest_body(x + vec3(0.0, side, 0.0)) == body,
+                nearest_body(x + vec3(0.0, 0.0, side)) == body);
+}
+
 void main() {
     force = vec4(0.0);
     moment = vec4(0.0);
@@ -63,10 +72,12 @@ void main() {
             if (cell.z >= CELLS.z) break;
             vec3 x = vec3(cell) + 0.5;
             vec3 low = vec3(lx[lane], ly[lane], lz[lane]), high = vec3(hx[lane], hy[lane], hz[lane]);
+            vec3 solid = (1.0 - high) * own(x, 0.5) - (1.0 - low) * own(x, -0.5);
 #ifdef VISCOUS
             add_friction(cell);
+            moment.xyz += lambda * cross(x - pivot, cross(body_spin[body], solid));
 #endif
-            if (nearest_body(x) == body) add(x, p[lane] * (low - high));
+            add(x, p[lane] * solid);
         }
     }
 }

@@ -225,8 +225,6 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
                              guess.spin_rad_s.x,   guess.spin_rad_s.y,   guess.spin_rad_s.z};
         double momentum = before[u.component];
         for (std::size_t c = 0; c < 6; ++c) momentum -= mass[u.component][c] * motion[c];
-        if (u.component >= 3 && !step.turning_torque_nm.empty())
-            momentum += dt * step.turning_torque_nm[u.index][static_cast<glm::length_t>(k % 3)];
         // What the water that would be in its place weighs is what carries it at rest; exactly that, on this grid.
         const double weight = -body.density_ratio * dt * sums(kHydrostatic, u.index, u.component);
         system.b(k) = u.scale * momentum + cell_mass * (sums(kPressure, u.index, u.component) + weight);

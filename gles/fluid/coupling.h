@@ -43,9 +43,8 @@ class Coupling {
         const Field<Cells4>& phi;  ///< for the guess
         const FaceFractions& a;
         const std::vector<Box>& boxes;
-        std::vector<BodyMotion> motions;                   ///< empty in the first step
-        std::optional<Traction::Friction> friction;        ///< if the fluid is viscous
-        const std::vector<glm::dvec3>& turning_torque_nm;  ///< of friction too, body by body; may be empty
+        std::vector<BodyMotion> motions;             ///< empty in the first step
+        std::optional<Traction::Friction> friction;  ///< if the fluid is viscous
         double dt_s;
     };
     /// Solves for the velocities at the end of the step, puts them into `states`, and leaves the uniforms with them.

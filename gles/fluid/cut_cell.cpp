@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "gles/body/mass_properties.h"
 #include "gles/grid_io.h"
 
 namespace eddy::gles {
@@ -98,8 +97,6 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
         add_pressure_.emplace(gpu, "add pressure", "gles/fluid/add_pressure.frag",
                               Cells4::layout(setup_.cells));
     }
-    for (const BodySetup& body : setup_.bodies)
-        volumes_m3_.push_back((body.inside_out ? -1.0 : 1.0) * mass_properties(body.shape).volume_m3);
     if (Coupling::needed(setup_)) coupling_.emplace(gpu, setup_, pressure_, body_uniforms_);
     if (Results::measures(setup_)) traction_.emplace(gpu, setup_, Results::width(setup_));
     const Fractions* solids = fractions_ ? &*fractions_ : nullptr;
@@ -229,7 +226,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
     }
     if (traction_ || wants_diagnosis) {
         Gpu::Stage stage(gpu_, "read back");
-        results_.request(step_, dt_s, wants_diagnosis, turning_torque(bodies));
+        results_.request(step_, dt_s, wants_diagnosis);
     }
     bodies_ = std::move(bodies);
 }
@@ -287,9 +284,7 @@ std::optional<Traction::Friction> CutCellFluid::friction() const {
 }
 
 void CutCellFluid::couple(std::vector<BodyState>& bodies) {
-    const std::vector<glm::dvec3> torque = turning_torque(bodies);
-    coupling_->solve(bodies,
-                     {phi_, fractions_->level(0), boxes_, motions(bodies), friction(), torque, dt_s_});
+    coupling_->solve(bodies, {phi_, fractions_->level(0), boxes_, motions(bodies), friction(), dt_s_});
     phi_ = coupling_->add_to(std::move(phi_));
     if (viscosity_) increment_ = coupling_->add_to(std::move(increment_));
 }
@@ -344,17 +339,6 @@ Field<Faces> CutCellFluid::project(const Field<Faces>& u, const Field<Cells4>& p
     }
     project_.walls.draw(inputs, uniforms, {&next.texture()}, upper_walls(setup_.cells));
     return next;
-}
-
-std::vector<glm::dvec3> CutCellFluid::turning_torque(const std::vector<BodyState>& bodies) const {
-    // The links carry mu du/dn; the traction is mu (du/dn + (grad u)^T n). Where the fluid sticks to a body that moves
-    // as u = U + w x r, the second part is n x w, because div u = 0 leaves no other: no force, and the torque
-    // mu int r x (n x w) dA = -2 mu V w about any point.
-    std::vector<glm::dvec3> torque;
-    if (!is_viscous()) return torque;
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        torque.push_back(-2.0 * setup_.viscosity_pa_s * volumes_m3_[i] * bodies[i].spin_rad_s);
-    return torque;
 }
 
 std::vector<glm::vec3> CutCellFluid::velocity() const {

@@ -58,18 +58,15 @@ class CutCellFluid final : public Fluid {
     void couple(std::vector<BodyState>& bodies);
     /// What friction is computed from, in a viscous fluid.
     std::optional<Traction::Friction> friction() const;
-    /// What the viscous term's links leave out of the torque.
-    std::vector<glm::dvec3> turning_torque(const std::vector<BodyState>& bodies) const;
     bool is_viscous() const { return setup_.viscosity_pa_s > 0.0; }
 
     // --- state, and who writes it                                             unit       cells
     Gpu& gpu_;
-    Field<Faces> u_;                     // velocity, project                    m/s       (nx+1, ny+1, nz+1)
-    Field<Cells4> phi_;                  // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
-    Field<Cells4> increment_;            // of phi in a viscous step              m/s       (nx, ny, nz)
-    Field<Faces> diffused_;              // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)
-    std::vector<double> volumes_m3_;     // of the bodies
-    std::vector<Box> boxes_;             // cells near each body, this step
+    Field<Faces> u_;           // velocity, project                    m/s       (nx+1, ny+1, nz+1)
+    Field<Cells4> phi_;        // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
+    Field<Cells4> increment_;  // of phi in a viscous step              m/s       (nx, ny, nz)
+    Field<Faces> diffused_;    // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)
+    std::vector<Box> boxes_;   // cells near each body, this step
     long step_ = 0;
     double time_s_ = 0.0;
     double dt_s_ = 0.0;

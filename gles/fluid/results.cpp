@@ -18,8 +18,8 @@ Results::Results(Gpu& gpu, const FluidSetup& setup)
       row_(gpu.textures().lease({width(setup), 1}, Format::RGBA32F)),
       readback_(gpu, {width(setup), 1}) {}
 
-void Results::request(long step, double dt_s, bool diagnosed, std::vector<glm::dvec3> torque_nm) {
-    asked_[static_cast<std::size_t>(step) % asked_.size()] = {dt_s, diagnosed, std::move(torque_nm)};
+void Results::request(long step, double dt_s, bool diagnosed) {
+    asked_[static_cast<std::size_t>(step) % asked_.size()] = {dt_s, diagnosed};
     readback_.request(*row_, step);
 }
 
@@ -41,7 +41,6 @@ std::optional<StepResult> Results::take(bool wait) {
         Load load;
         if (setup_->bodies[i].force) load.force_n = newton * glm::dvec3(got->texels[2 * i]);
         if (setup_->bodies[i].torque) load.torque_nm = newton * h * glm::dvec3(got->texels[2 * i + 1]);
-        if (setup_->bodies[i].torque && i < asked.torque_nm.size()) load.torque_nm += asked.torque_nm[i];
         result.loads.push_back(load);
     }
     if (asked.diagnosed) {

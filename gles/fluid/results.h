@@ -30,8 +30,8 @@ class Results {
     static bool measures(const FluidSetup& setup);
 
     const Texture& row() const { return *row_; }
-    /// Starts the row of this step on its way back. `torque_nm`: what the CPU adds to each body's; may be empty.
-    void request(long step, double dt_s, bool diagnosed, std::vector<glm::dvec3> torque_nm = {});
+    /// Starts the row of this step on its way back.
+    void request(long step, double dt_s, bool diagnosed);
     /// The oldest row under way. Without `wait`: only if the GPU has finished it.
     std::optional<StepResult> take(bool wait);
     /// Waits for what is under way and drops it.
@@ -45,7 +45,6 @@ class Results {
     struct Asked {
         double dt_s;
         bool diagnosed;
-        std::vector<glm::dvec3> torque_nm;
     };
     std::array<Asked, 8> asked_{};
 };
