@@ -96,6 +96,13 @@ double bounding_radius_m(const Shape& shape) {
     return std::visit(RadiusOf{}, shape);
 }
 
+Ball bounding_ball(const Shape& shape) {
+    const Mesh* mesh = std::get_if<Mesh>(&shape);
+    if (!mesh) return {glm::dvec3(0.0), bounding_radius_m(shape)};
+    const glm::dvec3 low = mesh->distance->mesh_low_m(), high = mesh->distance->mesh_high_m();
+    return {0.5 * (low + high), 0.5 * glm::length(high - low)};
+}
+
 Extent extent(const Shape& shape, const glm::dquat& orientation) {
     return std::visit(ExtentOf{glm::mat3_cast(glm::normalize(orientation))}, shape);
 }

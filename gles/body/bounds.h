@@ -11,6 +11,14 @@ namespace eddy::gles {
 /// Radius of the ball around the body's centre that holds it [m].
 double bounding_radius_m(const Shape& shape);
 
+/// A ball that holds the body, in the body's frame. Around its centre; but a mesh, whose origin may be anywhere, has it
+/// around the middle of its box, so that nothing hangs on where its file has the origin.
+struct Ball {
+    glm::dvec3 centre_m;
+    double radius_m;
+};
+Ball bounding_ball(const Shape& shape);
+
 /// The smallest box along the tank's axes that holds a shape, from the body's centre [m].
 struct Extent {
     glm::dvec3 low, high;

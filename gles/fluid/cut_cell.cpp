@@ -291,10 +291,14 @@ void CutCellFluid::couple(std::vector<BodyState>& bodies) {
 
 std::vector<BodyMotion> CutCellFluid::motions(const std::vector<BodyState>& bodies) const {
     std::vector<BodyMotion> result;
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-        result.push_back({glm::vec3(bodies[i].centre_m / setup_.cell_m),
-                          glm::vec3((bodies[i].centre_m - bodies_[i].centre_m) / setup_.cell_m),
-                          static_cast<float>(bounding_radius_m(setup_.bodies[i].shape) / setup_.cell_m)});
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const Ball ball = bounding_ball(setup_.bodies[i].shape);
+        const auto middle = [&](const BodyState& state) {
+            return (state.centre_m + state.orientation * ball.centre_m) / setup_.cell_m;
+        };
+        result.push_back({glm::vec3(middle(bodies[i])), glm::vec3(middle(bodies[i]) - middle(bodies_[i])),
+                          static_cast<float>(ball.radius_m / setup_.cell_m)});
+    }
     return result;
 }
 

@@ -47,6 +47,18 @@ std::vector<glm::dvec3> points_of(const NamedShape& named, Random& random) {
     return surface_points(named.shape, random);
 }
 
+TEST(Bounds, OfAMeshAsABallDoNotHangOnWhereItsOriginIs) {
+    const glm::dvec3 low(-2.0, -1.0, -3.0), high(5.0, 1.5, 2.0), origin(3.0, -7.0, 2.0);
+    const auto ball = [&](const glm::dvec3& shift) {
+        return bounding_ball(Mesh{std::make_shared<DistanceGrid>(box_mesh(low - shift, high - shift), 12)});
+    };
+    const Ball here = ball(glm::dvec3(0.0)), there = ball(origin);
+    EXPECT_NEAR(there.radius_m, here.radius_m, 1e-12);
+    EXPECT_LT(glm::length(there.centre_m + origin - here.centre_m), 1e-12);
+    for (const glm::dvec3& x : box_mesh(low, high).corners)
+        EXPECT_LE(glm::distance(x, here.centre_m), here.radius_m + 1e-12);
+}
+
 TEST(Bounds, HoldTheShapeTightlyInEveryPose) {
     Random random(2);
     for (const NamedShape& named : all_shapes()) {
