@@ -97,7 +97,8 @@ class BodyCheck {
         only(BodyMotion::Prescribed, "start_s", body_.start_s != 0.0);
         only(BodyMotion::Prescribed, "oscillation", body_.oscillation.has_value());
         only(BodyMotion::Held, "turning", body_.turning);
-        only(BodyMotion::Free, "density_kg_m3", body_.density_kg_m3.has_value());
+        if (body_.density_kg_m3 && body_.motion != BodyMotion::Free && !body_.turning)
+            blame("density_kg_m3", "is for motion = \"free\" and for turning = true, but " + motion);
         if (body_.motion == BodyMotion::Free && !given("density_kg_m3"))
             blame("density_kg_m3", "is missing here: motion = \"free\" needs density_kg_m3 = a number");
         if (body_.inside_out && body_.motion != BodyMotion::Fixed && body_.motion != BodyMotion::Prescribed)

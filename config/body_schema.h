@@ -42,9 +42,11 @@ void describe(Visitor& v, Scene::Body& b) {
     v.value("axis", b.axis, "it is turned about this direction ...", between(-1e3, 1e3));
     v.value("angle_deg", b.angle_deg, "... by this much, at the start", between(-3600, 3600));
     v.value("motion", b.motion, "who moves it");
-    v.value("density_kg_m3", b.density_kg_m3, "free only, which needs it: mean density of the body",
+    v.value("density_kg_m3", b.density_kg_m3,
+            "of a free body, which needs it, and of a turning one, which else has the fluid's: the same all "
+            "through it",
             above(0, 1e5));
-    v.value("turning", b.turning, "held only: torque turns it in the hand");
+    v.value("turning", b.turning, "held only: torque turns it in the hand, about centre_m");
     v.value("velocity_m_s", b.velocity_m_s, "prescribed only: steady part of its velocity");
     v.value("acceleration_m_s2", b.acceleration_m_s2, "prescribed only: steady acceleration");
     v.value("spin_rad_s", b.spin_rad_s, "prescribed only: angular velocity about its centre");

@@ -104,6 +104,11 @@ class FlowCheck {
         not_yang("imposed", scene_.imposed.has_value(), another);
         not_yang("temperature", scene_.temperature.has_value(), another);
         not_yang("smoke.initial", scene_.smoke && scene_.smoke->initial != Formula(), another);
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            not_yang((item("body", i) + ".motion").c_str(), scene_.bodies[i].motion == BodyMotion::Free,
+                     another);
+            not_yang((item("body", i) + ".turning").c_str(), scene_.bodies[i].turning, another);
+        }
         const Scene::Walls& w = scene_.tank.walls;
         for (const Scene::Wall* wall : {&w.x_low, &w.x_high, &w.y_low, &w.y_high, &w.z_low, &w.z_high})
             if (wall->kind == WallKind::Inflow || wall->kind == WallKind::Open)

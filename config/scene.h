@@ -117,7 +117,7 @@ struct Scene {
         glm::dvec3 axis{0.0, 0.0, 1.0};  ///< of any length but 0
         double angle_deg = 0.0;
         BodyMotion motion = BodyMotion::Fixed;
-        std::optional<double> density_kg_m3;  ///< free: always
+        std::optional<double> density_kg_m3;  ///< free: always; turning: may be given
         bool turning = false;
         glm::dvec3 velocity_m_s{0.0};
         glm::dvec3 acceleration_m_s2{0.0};

@@ -11,12 +11,6 @@ void refuse_what_is_not_in_this_version(const Scene& scene, Findings& findings) 
         if (used) rules.blame(key, "not in this version of eddy");
     };
     not_in_this_version("initial.velocity_npy", !scene.initial.velocity_npy.empty());
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        const Scene::Body& body = scene.bodies[i];
-        const std::string path = item("body", i);
-        not_in_this_version(path + ".motion", body.motion == BodyMotion::Free);
-        not_in_this_version(path + ".turning", body.turning);
-    }
     not_in_this_version("solver.time_order", scene.solver.time_order != 1);
     not_in_this_version("outputs.force_methods", scene.outputs.force_methods);
 }

@@ -97,6 +97,13 @@ gles::Shape shape(const Scene::Body& b, double cell_m) {
     throw std::logic_error("a body shape without a solid");
 }
 
+/// What of a body the fluid decides.
+std::optional<gles::Coupled> coupled(const Scene::Body& body, double fluid_density_kg_m3) {
+    const bool free = body.motion == BodyMotion::Free;
+    if (!free && !body.turning) return std::nullopt;
+    return gles::Coupled{body.density_kg_m3.value_or(fluid_density_kg_m3), free, true};
+}
+
 }  // namespace
 
 gles::FluidSetup fluid_setup(const Scene& scene) {
@@ -146,7 +153,8 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
         if (source.stop_s) to.stop_s = *source.stop_s;
     }
     for (const Scene::Body& body : scene.bodies)
-        s.bodies.push_back({shape(body, s.cell_m), body.inside_out, body.force, body.torque});
+        s.bodies.push_back({shape(body, s.cell_m), body.inside_out, body.force, body.torque,
+                            coupled(body, s.density_kg_m3)});
     s.solver = solver_setup(scene.solver);
     return s;
 }

@@ -9,13 +9,14 @@ namespace eddy {
 
 /// series.csv: for each step, one row per body (or one with body "-" when the scene has none). The file
 /// appears under its name only when it is complete. Force and torque are ON the body BY the fluid, Tank
-/// frame.
+/// frame; the body's place and motion are those at the end of the step.
 class Series {
   public:
     /// `more`: columns after those that every series has. Throws std::runtime_error if the file cannot be written.
     Series(std::filesystem::path file, std::vector<std::string> bodies, const std::vector<std::string>& more);
     /// `more`: a value for each of its columns; the same in the row of each body.
-    void add(double time_s, const gles::StepResult& result, double step_ms, const std::vector<double>& more);
+    void add(double time_s, const gles::StepResult& result, const std::vector<gles::BodyState>& bodies,
+             double step_ms, const std::vector<double>& more);
     /// Puts the file in its place. Throws std::runtime_error if the disk did not take it all.
     void finish();
 

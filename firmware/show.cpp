@@ -68,6 +68,7 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     last_ = now;
     ++figures_.steps;
     fluid_->step(dt.count(), states_, diagnose);
+    states_ = fluid_->bodies();
     computed_for_[fluid_->steps()] = pose.time;
 }
 

@@ -152,7 +152,7 @@ int simulate(const SimulateOptions& options) {
             if (scene.temperature) more.push_back(result.diagnostics->temperature_total);
             const double step_ms = milliseconds_since(step_start);
             for (const double value : probes.read(*fluid)) more.push_back(value);
-            series->add(t, result, step_ms, more);
+            series->add(t, result, fluid->bodies(), step_ms, more);
         }
         progress.show(static_cast<double>(n), static_cast<double>(steps));
     }

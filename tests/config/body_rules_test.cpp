@@ -82,14 +82,22 @@ TEST(BodyRules, OscillationsSwingOrTurnAndDoNotFightTheSpin) {
         ElementsAre(StartsWith("s.toml:6:47: body.0.oscillation.angle_deg: a body with spin_rad_s")));
 }
 
-TEST(BodyRules, FreeBodiesHaveADensityAndOthersDoNot) {
+TEST(BodyRules, FreeBodiesHaveADensityAndFixedOnesDoNot) {
     EXPECT_THAT(faults_of(kBall + "motion = \"free\"\ndensity_kg_m3 = 1000\n"), IsEmpty());
     EXPECT_THAT(faults_of(kBall + "motion = \"free\"\n"),
                 ElementsAre("s.toml:1:1: body.0.density_kg_m3: is missing here: motion = \"free\" needs "
                             "density_kg_m3 = a number"));
     EXPECT_THAT(
         faults_of(kBall + "density_kg_m3 = 1000\n"),
-        ElementsAre("s.toml:4:17: body.0.density_kg_m3: is for motion = \"free\", but motion is \"fixed\""));
+        ElementsAre("s.toml:4:17: body.0.density_kg_m3: is for motion = \"free\" and for turning = true, "
+                    "but motion is \"fixed\""));
+}
+
+TEST(BodyRules, TurningBodiesMayHaveADensity) {
+    const std::string box = "shape = \"box\"\nsize_m = [0.01, 0.02, 0.03]\nmotion = \"held\"\n";
+    EXPECT_THAT(faults_of(body(box + "turning = true\ndensity_kg_m3 = 1000\n")), IsEmpty());
+    EXPECT_THAT(faults_of(body(box + "density_kg_m3 = 1000\n")),
+                ElementsAre(StartsWith("s.toml:6:17: body.0.density_kg_m3: is for motion")));
 }
 
 TEST(BodyRules, FreeBodiesStartInTheTank) {

@@ -255,6 +255,15 @@ TEST(SceneError, SolverKeysBelongToTheirPreset) {
     EXPECT_THAT(complaints_about("[solver]\njacobi_sweeps = 40\npreset = \"yang2009\""), IsEmpty());
 }
 
+TEST(SceneError, TheMethodOf2009MovesNoBodies) {
+    const std::string yang = "[solver]\npreset = \"yang2009\"\n";
+    EXPECT_THAT(complaints_about(yang + kBody + "motion = \"free\"\ndensity_kg_m3 = 1\n"),
+                ElementsAre(StartsWith("s.toml:6:10: body.0.motion: is not in the method of Yang")));
+    EXPECT_THAT(complaints_about(yang + "[[body]]\nshape = \"box\"\nsize_m = [0.1, 0.1, 0.1]\nmotion = "
+                                        "\"held\"\nturning = true\n"),
+                ElementsAre(StartsWith("s.toml:7:11: body.0.turning: is not in the method of Yang")));
+}
+
 // While there is anything that a scene may say but the solver cannot do.
 TEST(SceneError, WhatThisVersionCannotDoIsRefusedByName) {
     for (const std::string& text : scenes_with_every_key(testing::TempDir() + "eddy_not_yet")) {

@@ -48,12 +48,15 @@ TEST(Simulate, OfStillAirWritesASeriesOfForcesThatAreExactlyZero) {
 
     const std::vector<std::string> lines = lines_of(read_all(out + "/series.csv"));
     ASSERT_EQ(lines.size(), 4u);
-    EXPECT_EQ(lines[0],
-              "t_s,body,force_x_n,force_y_n,force_z_n,torque_x_nm,torque_y_nm,torque_z_nm,kinetic_energy_j,"
-              "divergence_max_1_s,pressure_residual,smoke_total,step_ms");
+    EXPECT_EQ(
+        lines[0],
+        "t_s,body,force_x_n,force_y_n,force_z_n,torque_x_nm,torque_y_nm,torque_z_nm,kinetic_energy_j,"
+        "divergence_max_1_s,pressure_residual,smoke_total,step_ms,x_m,y_m,z_m,velocity_x_m_s,velocity_y_m_s,"
+        "velocity_z_m_s,orientation_w,orientation_x,orientation_y,orientation_z,spin_x_rad_s,spin_y_rad_s,"
+        "spin_z_rad_s");
     for (std::size_t row = 1; row < lines.size(); ++row) {
         const std::vector<std::string> cells = split(lines[row], ',');
-        ASSERT_EQ(cells.size(), 13u) << lines[row];
+        ASSERT_EQ(cells.size(), 26u) << lines[row];
         EXPECT_NEAR(std::stod(cells[0]), 0.02 * static_cast<double>(row), 1e-9);
         EXPECT_EQ(cells[1], "ball");
         for (std::size_t column = 2; column < 12; ++column)
