@@ -99,10 +99,12 @@ Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUn
     for (std::size_t i = 0; i < setup.bodies.size(); ++i) {
         const BodySetup& body = setup.bodies[i];
         if (!body.coupled) continue;
-        const double radius = bounding_radius_m(body.shape);
-        const glm::dvec3 low = glm::min(glm::dvec3(radius + kWallGapCells * setup.cell_m), 0.5 * size);
+        const double reach = bounding_radius_m(body.shape);
+        const double radius = std::cbrt(0.75 / std::numbers::pi * mass_properties(body.shape).volume_m3);
+        const glm::dvec3 low = glm::min(glm::dvec3(reach + kWallGapCells * setup.cell_m), 0.5 * size);
         bodies_.push_back({i, RigidBody(body.shape, body.coupled->density_kg_m3),
-                           body.coupled->density_kg_m3 / setup.density_kg_m3, radius, low, size - low});
+                           body.coupled->density_kg_m3 / setup.density_kg_m3, radius, reach, low,
+                           size - low});
         for (const bool turns : {false, true}) {
             const bool pressed = !turns || !is_round(body);
             if (!(turns ? body.coupled->turns : body.coupled->moves)) continue;
@@ -214,7 +216,7 @@ Coupling::Unknown Coupling::unknown(std::size_t k) const {
 
 LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& step, const Sums& sums) {
     const double h = setup_.cell_m, cell_mass = setup_.density_kg_m3 * h * h * h, dt = step.dt_s;
-    LinearSystem system(3 * triples_.size());
+    LinearSystem system(3 * triples_.size()), resistance = system;
     for (std::size_t k = 0; k < system.unknowns(); ++k) {
         const Unknown u = unknown(k);
         const Body& body = bodies_[u.body];
@@ -223,6 +225,7 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
         const Vector6 before = body.solid.momentum(before_[u.index], guess.orientation);
         const Vector6 motion{guess.velocity_m_s.x, guess.velocity_m_s.y, guess.velocity_m_s.z,
                              guess.spin_rad_s.x,   guess.spin_rad_s.y,   guess.spin_rad_s.z};
+        const double rate = resistance_1_s(body, triples_[k / 3].turns, states, dt);
         double momentum = before[u.component];
         for (std::size_t c = 0; c < 6; ++c) momentum -= mass[u.component][c] * motion[c];
         // What the water that would be in its place weighs is what carries it at rest; exactly that, on this grid.
@@ -232,11 +235,13 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
             const Unknown v = unknown(l);
             const double own = v.body == u.body ? u.scale * v.scale * mass[u.component][v.component] : 0.0;
             system.a(k, l) = own - cell_mass * sums(kPotentials + l, u.index, u.component);
+            if (k / 3 == l / 3) resistance.a(k, l) = rate * own / body.density_ratio;
         }
-        Triple& triple = triples_[k / 3];
-        const double inertia = system.a(k, k), resisted = dt * resistance(body, triple.turns, states, dt);
-        system.a(k, k) += resisted;
-        triple.trust[static_cast<glm::length_t>(k % 3)] = inertia / (inertia + resisted);
+    }
+    for (std::size_t k = 0; k < system.unknowns(); ++k) {
+        triples_[k / 3].trust[static_cast<glm::length_t>(k % 3)] =
+            system.a(k, k) / (system.a(k, k) + dt * resistance.a(k, k));
+        for (std::size_t l = 0; l < system.unknowns(); ++l) system.a(k, l) += dt * resistance.a(k, l);
     }
     return system;
 }
@@ -244,29 +249,28 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
 double Coupling::room_m(const Body& body, const std::vector<BodyState>& states) const {
     const glm::dvec3& here = states[body.index].centre_m;
     const glm::dvec3 to_walls = glm::min(here, setup_.cell_m * glm::dvec3(setup_.cells) - here);
-    double room = std::min({to_walls.x, to_walls.y, to_walls.z}) - body.radius_m;
+    double room = std::min({to_walls.x, to_walls.y, to_walls.z}) - body.reach_m;
     for (std::size_t i = 0; i < setup_.bodies.size(); ++i) {
         if (i == body.index) continue;
         const double far = glm::distance(here, states[i].centre_m);
         const double other = bounding_radius_m(setup_.bodies[i].shape);
-        room = std::min(room, (setup_.bodies[i].inside_out ? other - far : far - other) - body.radius_m);
+        room = std::min(room, (setup_.bodies[i].inside_out ? other - far : far - other) - body.reach_m);
     }
     return std::max(room, setup_.cell_m);
 }
 
-double Coupling::resistance(const Body& body, bool turns, const std::vector<BodyState>& states,
-                            double dt_s) const {
+double Coupling::resistance_1_s(const Body& body, bool turns, const std::vector<BodyState>& states,
+                                double dt_s) const {
     if (setup_.viscosity_pa_s == 0.0) return 0.0;
-    // Of the ball around the body, as nothing that fits into a ball resists more than it: Stokes; the layer that starts to
-    // move within one step (Basset); and what is squeezed out before a wall (a / gap times Stokes: Cox, Brenner 1967, Chem.
-    // Eng. Sci. 22). With half of this a ball of 1 % of the fluid's density became unstable in fluids so thick that the
-    // step is longer than all it takes to set them moving; so there is half as much more.
-    const double r = body.radius_m, nu = setup_.viscosity_pa_s / setup_.density_kg_m3;
-    const double layer = 2.0 * r / std::sqrt(std::numbers::pi * nu * dt_s);
-    const double h = setup_.cell_m;
-    const double moved = turns ? 8.0 * r * r * r / (h * h) * (1.0 + layer)
-                               : 6.0 * r * (1.0 + layer + r / room_m(body, states));
-    return 1.5 * std::numbers::pi * setup_.viscosity_pa_s * moved;
+    // Of a ball of its volume: Stokes, 6 pi mu a and 8 pi mu a^3, over the mass and the moment of inertia of its fluid; the layer
+    // that starts to move within one step (Basset); and what is squeezed out before a wall (a / gap times Stokes: Cox,
+    // Brenner 1967, Chem. Eng. Sci. 22). With half of this a ball of 1 % of the fluid's density became unstable in fluids so
+    // thick that a step is longer than all it takes to set them moving; so there is half as much more.
+    const double a = body.radius_m, nu = setup_.viscosity_pa_s / setup_.density_kg_m3;
+    const double layer = 2.0 * a / std::sqrt(std::numbers::pi * nu * dt_s);
+    const double stokes =
+        nu / (a * a) * (turns ? 15.0 * (1.0 + layer / 3.0) : 4.5 * (1.0 + layer + a / room_m(body, states)));
+    return 1.5 * stokes;
 }
 
 std::vector<double> Coupling::stop_at_walls(LinearSystem system, const std::vector<BodyState>& states,

@@ -59,7 +59,8 @@ class Coupling {
         std::size_t index;
         RigidBody solid;
         double density_ratio;  ///< to the fluid's
-        double radius_m;       ///< of the ball that holds it
+        double radius_m;       ///< of a ball of its volume
+        double reach_m;        ///< radius of the ball around its centre that holds it
         glm::dvec3 low, high;  ///< where its centre may be [m]
     };
     /// Three velocities that the fluid decides: of a body's centre, in m/s, or of its turning, in m/s per cell.
@@ -88,8 +89,9 @@ class Coupling {
     LinearSystem newton(const std::vector<BodyState>& states, const Step& step, const Sums& sums);
     /// From the ball around a body to the nearest wall or body, at least one cell.
     double room_m(const Body& body, const std::vector<BodyState>& states) const;
-    /// D.
-    double resistance(const Body& body, bool turns, const std::vector<BodyState>& states, double dt_s) const;
+    /// D over the inertia of the fluid in the body's place.
+    double resistance_1_s(const Body& body, bool turns, const std::vector<BodyState>& states,
+                          double dt_s) const;
     /// V - V_g.
     std::vector<double> stop_at_walls(LinearSystem system, const std::vector<BodyState>& states, double dt_s);
 
