@@ -11,8 +11,6 @@
 namespace eddy::gles {
 namespace {
 
-/// Cells between a body and the walls: enough for the pressure to pass between them, and for no wall's face to be cut.
-constexpr double kWallGapCells = 1.0;
 /// V-cycles that improve a potential in a step, and more in the first, which starts from 0.
 constexpr int kCycles = 1, kColdCycles = 4;
 
@@ -88,6 +86,8 @@ Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUn
       setup_(setup),
       pressure_(pressure),
       uniforms_(uniforms),
+      contacts_(setup),
+      velocities_(setup.bodies.size()),
       flux_(gpu, "flux of unit velocity", "gles/fluid/divergence.frag", Cells4::layout(setup.cells),
             unit_flux(setup)),
       add_(gpu, "add potentials", "gles/fluid/add_potentials.frag", Cells4::layout(setup.cells)),
@@ -95,16 +95,12 @@ Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUn
       traction_(gpu, measuring_coupled(setup), width(setup)),
       row_(gpu.textures().lease({width(setup), 1}, Format::RGBA32F)),
       readback_(gpu, {width(setup), 1}) {
-    const glm::dvec3 size = setup.cell_m * glm::dvec3(setup.cells);
     for (std::size_t i = 0; i < setup.bodies.size(); ++i) {
         const BodySetup& body = setup.bodies[i];
         if (!body.coupled) continue;
-        const double reach = bounding_radius_m(body.shape);
-        const double radius = std::cbrt(0.75 / std::numbers::pi * mass_properties(body.shape).volume_m3);
-        const glm::dvec3 low = glm::min(glm::dvec3(reach + kWallGapCells * setup.cell_m), 0.5 * size);
         bodies_.push_back({i, RigidBody(body.shape, body.coupled->density_kg_m3),
-                           body.coupled->density_kg_m3 / setup.density_kg_m3, radius, reach, low,
-                           size - low});
+                           body.coupled->density_kg_m3 / setup.density_kg_m3,
+                           std::cbrt(0.75 / std::numbers::pi * mass_properties(body.shape).volume_m3)});
         for (const bool turns : {false, true}) {
             const bool pressed = !turns || !is_round(body);
             if (!(turns ? body.coupled->turns : body.coupled->moves)) continue;
@@ -112,6 +108,7 @@ Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUn
             Triple& triple = triples_.emplace_back();
             triple.body = bodies_.size() - 1;
             triple.turns = turns;
+            if (!turns) velocities_[i] = 3 * (triples_.size() - 1);
             for (int axis = 0; pressed && axis < 3; ++axis)
                 triple.potentials.emplace_back(gpu, setup.cells, Format::RGBA32F);
         }
@@ -141,7 +138,7 @@ std::vector<BodyState> Coupling::predict(const std::vector<BodyState>& given,
         const BodyState moved = body.solid.moved(old, dt_s);
         const Coupled& coupled = *setup_.bodies[body.index].coupled;
         if (coupled.moves) {
-            state.centre_m = glm::clamp(moved.centre_m, body.low, body.high);
+            state.centre_m = moved.centre_m;
             state.velocity_m_s = old.velocity_m_s;
         }
         if (coupled.turns) {
@@ -149,6 +146,7 @@ std::vector<BodyState> Coupling::predict(const std::vector<BodyState>& given,
             state.spin_rad_s = old.spin_rad_s;
         }
     }
+    contacts_.separate(states, velocities_);
     for (const Triple& triple : triples_) {
         const Body& body = bodies_[triple.body];
         const glm::dvec3 change = dt_s * triple.trust * triple.acceleration;
@@ -247,14 +245,15 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
 }
 
 double Coupling::room_m(const Body& body, const std::vector<BodyState>& states) const {
+    const double reach = bounding_radius_m(setup_.bodies[body.index].shape);
     const glm::dvec3& here = states[body.index].centre_m;
     const glm::dvec3 to_walls = glm::min(here, setup_.cell_m * glm::dvec3(setup_.cells) - here);
-    double room = std::min({to_walls.x, to_walls.y, to_walls.z}) - body.reach_m;
+    double room = std::min({to_walls.x, to_walls.y, to_walls.z}) - reach;
     for (std::size_t i = 0; i < setup_.bodies.size(); ++i) {
         if (i == body.index) continue;
         const double far = glm::distance(here, states[i].centre_m);
         const double other = bounding_radius_m(setup_.bodies[i].shape);
-        room = std::min(room, (setup_.bodies[i].inside_out ? other - far : far - other) - body.reach_m);
+        room = std::min(room, (setup_.bodies[i].inside_out ? other - far : far - other) - reach);
     }
     return std::max(room, setup_.cell_m);
 }
@@ -273,33 +272,10 @@ double Coupling::resistance_1_s(const Body& body, bool turns, const std::vector<
     return 1.5 * stokes;
 }
 
-std::vector<double> Coupling::stop_at_walls(LinearSystem system, const std::vector<BodyState>& states,
-                                            double dt_s) {
-    std::vector<double> change = system.solve();
-    // One after the other: with one stopped, another may be led into its wall, or no longer.
-    for (std::size_t k = 0; k < change.size(); ++k) {
-        const Unknown u = unknown(k);
-        const Body& body = bodies_[u.body];
-        const auto axis = static_cast<glm::length_t>(k % 3);
-        Triple& triple = triples_[k / 3];
-        if (triple.turns || triple.stopped[axis]) continue;
-        const double here = states[u.index].centre_m[axis], guess = states[u.index].velocity_m_s[axis];
-        const double next = here + dt_s * (guess + change[k]);
-        const double inside = std::clamp(next, body.low[axis], body.high[axis]);
-        if (next == inside) continue;
-        system.fix(k, (inside - here) / dt_s - guess);
-        change = system.solve();
-        triple.stopped[axis] = true;
-        k = 0;
-    }
-    return change;
-}
-
 void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
     draw_potentials(states, step);
-    for (Triple& triple : triples_) triple.stopped = glm::bvec3(false);
-    const std::vector<double> change =
-        stop_at_walls(newton(states, step, add_up(states, step)), states, step.dt_s);
+    const LinearSystem system = newton(states, step, add_up(states, step));
+    const std::vector<double> change = contacts_.solve(system, states, velocities_, step.dt_s);
     for (std::size_t t = 0; t < triples_.size(); ++t) {
         Triple& triple = triples_[t];
         triple.change = {change[3 * t], change[3 * t + 1], change[3 * t + 2]};
@@ -313,8 +289,10 @@ void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
             state.velocity_m_s += triple.change;
             gained = state.velocity_m_s - old.velocity_m_s;
         }
-        // What a wall took is no sign of what comes next.
-        triple.acceleration = glm::mix(gained / step.dt_s, glm::dvec3(0.0), triple.stopped);
+        // What a wall or another body took is no sign of what comes next.
+        for (int i = 0; i < 3; ++i)
+            triple.acceleration[i] =
+                contacts_.stopped(3 * t + static_cast<std::size_t>(i)) ? 0.0 : gained[i] / step.dt_s;
     }
     uniforms_.set(states);
 }

@@ -4,6 +4,7 @@
 
 #include "gles/body/rigid_body.h"
 #include "gles/body/traction.h"
+#include "gles/fluid/contacts.h"
 #include "gles/fluid/pressure.h"
 #include "gles/linear_system.h"
 #include "gles/readback.h"
@@ -25,8 +26,7 @@ namespace eddy::gles {
 ///
 /// The sums J phi must be known before the step can end: a scene with such a body waits for the GPU once a step.
 ///
-/// A body is stopped one cell before the tank's walls, as if the ball around its centre that holds it were soft clay: what
-/// of its velocity leads into the wall is lost. Bodies do not feel each other except through the fluid.
+/// Walls and other bodies stop a body before it touches them (contacts.h).
 class Coupling {
   public:
     /// `pressure` and `uniforms` must outlive this.
@@ -60,8 +60,6 @@ class Coupling {
         RigidBody solid;
         double density_ratio;  ///< to the fluid's
         double radius_m;       ///< of a ball of its volume
-        double reach_m;        ///< radius of the ball around its centre that holds it
-        glm::dvec3 low, high;  ///< where its centre may be [m]
     };
     /// Three velocities that the fluid decides: of a body's centre, in m/s, or of its turning, in m/s per cell.
     struct Triple {
@@ -71,7 +69,6 @@ class Coupling {
         glm::dvec3 acceleration{0.0};             ///< in the last step
         glm::dvec3 trust{1.0};                    ///< share of it that the next guess goes on with
         glm::dvec3 change{0.0};                   ///< V - V_g
-        glm::bvec3 stopped{false};                ///< by a wall
     };
     /// Velocity number k = 3 (triple) + axis: which body (in bodies_, in the scene), which of its six velocities, and what
     /// makes SI of it.
@@ -92,8 +89,6 @@ class Coupling {
     /// D over the inertia of the fluid in the body's place.
     double resistance_1_s(const Body& body, bool turns, const std::vector<BodyState>& states,
                           double dt_s) const;
-    /// V - V_g.
-    std::vector<double> stop_at_walls(LinearSystem system, const std::vector<BodyState>& states, double dt_s);
 
     Gpu& gpu_;
     const FluidSetup& setup_;
@@ -103,6 +98,8 @@ class Coupling {
     std::vector<Triple> triples_;
     std::vector<BodyState> before_;  // all bodies, at the end of the last step
     std::vector<Box> boxes_before_;
+    Contacts contacts_;
+    std::vector<std::optional<std::size_t>> velocities_;  // of each body of the scene, in Contacts' sense
     Pass flux_, add_;
     Field<Cells4> b_;                           // of a unit velocity; 0 away from the bodies
     std::optional<Field<Cells4>> hydrostatic_;  // g . x [m/s^2 cells]
