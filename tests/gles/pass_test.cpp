@@ -6,6 +6,7 @@
 #include "gles/grid_io.h"
 #include "gles/shader_source.h"
 #include "tests/gles/gl_fixture.h"
+#include "tests/gles/refusal.h"
 
 namespace eddy::gles {
 namespace {
@@ -13,16 +14,6 @@ namespace {
 using PassOverTexture = GlTest;
 
 constexpr AtlasLayout kSquare{{8, 8, 1}, 1};
-
-template <class F>
-std::string refusal(F f) {
-    try {
-        f();
-    } catch (const GlError& e) {
-        return e.what();
-    }
-    return "";
-}
 
 TEST_F(PassOverTexture, ThatDoesNotCompileSaysWhere) {
     // Line 1 of the declarations is the layout of the target.

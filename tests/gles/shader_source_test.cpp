@@ -6,7 +6,7 @@
 #include <span>
 
 #include "cmake/embedded.h"
-#include "gles/context.h"
+#include "tests/gles/refusal.h"
 
 namespace eddy {
 extern const std::span<const EmbeddedFile> kShaders;
@@ -14,16 +14,6 @@ extern const std::span<const EmbeddedFile> kShaders;
 
 namespace eddy::gles {
 namespace {
-
-template <class F>
-std::string refusal(F f) {
-    try {
-        f();
-    } catch (const GlError& e) {
-        return e.what();
-    }
-    return "";
-}
 
 bool holds(std::string_view text, std::string_view words) {
     return text.find(words) != std::string_view::npos;
