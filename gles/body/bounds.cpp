@@ -26,6 +26,19 @@ struct RadiusOf {
     double operator()(const Mesh& s) const { return s.distance->radius_m(); }
 };
 
+struct ThicknessOf {
+    static double least(const glm::dvec3& v) { return std::min({v.x, v.y, v.z}); }
+    double operator()(const Sphere& s) const { return 2.0 * s.radius_m; }
+    double operator()(const Cuboid& s) const { return least(s.size_m); }
+    double operator()(const Capsule& s) const { return 2.0 * s.radius_m; }
+    double operator()(const Cylinder& s) const { return std::min(2.0 * s.radius_m, s.length_m); }
+    double operator()(const Torus& s) const { return 2.0 * s.tube_radius_m; }
+    double operator()(const Ellipsoid& s) const { return 2.0 * least(s.radii_m); }
+    double operator()(const Paddle& s) const { return std::min(least(s.blade_m), 2.0 * s.handle_radius_m); }
+    double operator()(const Tetrahedron& s) const { return std::sqrt(2.0 / 3.0) * s.edge_m; }  // its height
+    double operator()(const Mesh&) const { return 0.0; }
+};
+
 /// Half the extent of a disk whose axis is `axis`.
 glm::dvec3 disk(const glm::dvec3& axis, double radius) {
     return radius * glm::sqrt(glm::max(1.0 - axis * axis, 0.0));
@@ -101,6 +114,10 @@ Ball bounding_ball(const Shape& shape) {
     if (!mesh) return {glm::dvec3(0.0), bounding_radius_m(shape)};
     const glm::dvec3 low = mesh->distance->mesh_low_m(), high = mesh->distance->mesh_high_m();
     return {0.5 * (low + high), 0.5 * glm::length(high - low)};
+}
+
+double thickness_m(const Shape& shape) {
+    return std::visit(ThicknessOf{}, shape);
 }
 
 Extent extent(const Shape& shape, const glm::dquat& orientation) {

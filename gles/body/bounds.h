@@ -19,6 +19,9 @@ struct Ball {
 };
 Ball bounding_ball(const Shape& shape);
 
+/// The least width of the solid, between parallel surfaces that are far apart from other ones [m]; 0 where it is not known.
+double thickness_m(const Shape& shape);
+
 /// The smallest box along the tank's axes that holds a shape, from the body's centre [m].
 struct Extent {
     glm::dvec3 low, high;

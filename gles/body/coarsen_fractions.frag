@@ -3,7 +3,11 @@
 // reads   ax, ay, az     RGBA32F  Faces4 of the FINE grid (fine_cells)
 // writes  ax, ay, az     RGBA32F  Faces4 of the coarse grid            at least 1e-3, so that coarse cells inside a solid
 //                                                                      carry a smooth pressure and prolongation needs no mask
-// fetches 28
+// fetches 28, THIN 56
+//
+// Variant THIN: a coarse link is as open as two fine ones are one after the other, the one at its middle and the one before:
+// so each fine face, and with it a thin plate wherever it lies, closes one coarse face. (With half of the one after as well, a
+// plate would wall in a coarse cell, and the cycles would diverge.)
 //
 // Fine faces beyond an odd edge of the grid do not exist and count as closed.
 uniform sampler2D ax, ay, az;
@@ -24,6 +28,25 @@ void column(sampler2D f, ivec3 c, out vec4 low, out vec4 high) {
     high *= vec4(lessThan(z + 4.0, vec4(FINE_LAYERS)));
 }
 
+#ifdef THIN
+vec4 one_after_the_other(vec4 before, vec4 a) {
+    return 2.0 / (1.0 / max(before, kFloor) + 1.0 / max(a, kFloor));
+}
+
+// The same of links that follow each other along e.
+void column(sampler2D f, ivec3 c, ivec3 e, out vec4 low, out vec4 high) {
+    vec4 low_before, high_before;
+    column(f, c, low, high);
+    column(f, max(c - e, 0), low_before, high_before);
+    low = one_after_the_other(low_before, low);
+    high = one_after_the_other(high_before, high);
+}
+#else
+void column(sampler2D f, ivec3 c, ivec3 e, out vec4 low, out vec4 high) {
+    column(f, c, low, high);
+}
+#endif
+
 // Cells, not faces, end at n: the pair of a face in a direction across it must exist as a cell.
 float exists(int index, int n) {
     return index < n ? 1.0 : 0.0;
@@ -37,19 +60,24 @@ void main() {
     out_ax = vec4(0.0);
     out_ay = vec4(0.0);
     for (int t = 0; t < 2; ++t) {
-        column(ax, f + ivec3(0, t, 0), l, h);
+        column(ax, f + ivec3(0, t, 0), ivec3(1, 0, 0), l, h);
         // x- and y-faces pair up in z: layers (0,1)(2,3)(4,5)(6,7); the last face layer of an odd grid has no cell.
         vec4 z = float(8 * c.z) + vec4(0.0, 2.0, 4.0, 6.0);
         vec4 first = vec4(lessThan(z, vec4(n.z))), second = vec4(lessThan(z + 1.0, vec4(n.z)));
         out_ax += exists(f.y + t, n.y) * 0.25 * (first * vec4(l.xz, h.xz) + second * vec4(l.yw, h.yw));
-        column(ay, f + ivec3(t, 0, 0), l, h);
+        column(ay, f + ivec3(t, 0, 0), ivec3(0, 1, 0), l, h);
         out_ay += exists(f.x + t, n.x) * 0.25 * (first * vec4(l.xz, h.xz) + second * vec4(l.yw, h.yw));
     }
     out_az = vec4(0.0);
     for (int t = 0; t < 4; ++t) {
         ivec3 d = ivec3(t & 1, t >> 1, 0);
         column(az, f + d, l, h);
-        out_az += exists(f.x + d.x, n.x) * exists(f.y + d.y, n.y) * 0.25 * vec4(l.xz, h.xz);
+        vec4 link = vec4(l.xz, h.xz);
+#ifdef THIN
+        float below = at_clamped(az, FINE, ivec3((f + d).xy, max(f.z - 1, 0))).w;
+        link = one_after_the_other(vec4(f.z > 0 ? below : l.x, l.yw, h.y), link);
+#endif
+        out_az += exists(f.x + d.x, n.x) * exists(f.y + d.y, n.y) * 0.25 * link;
     }
     out_ax = max(out_ax, vec4(kFloor));
     out_ay = max(out_ay, vec4(kFloor));

@@ -43,8 +43,29 @@ float fluid_fraction_at(vec3 x, float edge) {
     return fluid_fraction(distance / steepness, g / steepness);
 }
 
+#ifdef THIN
+vec3 away_from_solid(vec3 x) {
+    const vec2 e = vec2(0.05, 0.0);
+    return vec3(solid_distance(x + e.xyy) - solid_distance(x - e.xyy), solid_distance(x + e.yxy) - solid_distance(x - e.yxy),
+                solid_distance(x + e.yyx) - solid_distance(x - e.yyx)) / (2.0 * e.x);
+}
+
+// 0 where a solid that is thinner than the cells parts the two cells beside a face, however little of them it fills: where it
+// lies between their middles, and its surfaces there look opposite ways. 1 elsewhere.
+float not_parted(vec3 x, vec3 axis) {
+    // A little aside, for no cell's middle may lie exactly in that of a plate.
+    vec3 low = x - 0.5 * axis + vec3(1e-3, 7e-4, 4e-4);
+    vec3 n_low = away_from_solid(low), n_high = away_from_solid(low + axis);
+    float fall = -dot(n_low, axis), rise = dot(n_high, axis);
+    if (dot(n_low, n_high) >= 0.0 || fall <= 0.0 || rise <= 0.0) return 1.0;
+    // Where the surfaces' tangent planes meet on the way lies the middle of a plate, or the open side of its rim.
+    float t = (solid_distance(low) - solid_distance(low + axis) + rise) / (fall + rise);
+    return step(0.0, solid_distance(low + clamp(t, 0.0, 1.0) * axis));
+}
+#endif
+
 // The fluid's share of the staggered cell around x [cells], from SUBCUBES^3 parts.
-float fluid_fraction_at(vec3 x) {
+float fluid_fraction_at(vec3 x, vec3 axis) {
 #if SUBCUBES == 1
     float volume = fluid_fraction_at(x, 1.0);
 #else
@@ -57,5 +78,9 @@ float fluid_fraction_at(vec3 x) {
     volume *= edge * edge * edge;
 #endif
     // Slivers that rounding alone could open or close count as closed.
-    return volume < kSliver ? 0.0 : min(volume, 1.0);
+    volume = volume < kSliver ? 0.0 : min(volume, 1.0);
+#ifdef THIN
+    if (volume > 0.0 && volume < 1.0) volume *= not_parted(x, axis);
+#endif
+    return volume;
 }

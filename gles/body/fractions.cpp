@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "gles/body/bounds.h"
+
 namespace eddy::gles {
 namespace {
 
@@ -33,22 +35,43 @@ int subcubes(const std::vector<BodySetup>& bodies) {
     return std::any_of(bodies.begin(), bodies.end(), has_edges) ? 2 : 1;
 }
 
+/// The thinnest solid that closes a layer of faces wherever it lies: the cells that its two surfaces touch, and one more.
+constexpr double kThinCells = 2.7;
+
+bool any_thin(const std::vector<BodySetup>& bodies, double cell_m) {
+    return std::any_of(bodies.begin(), bodies.end(), [&](const BodySetup& body) {
+        return !body.inside_out && thickness_m(body.shape) < kThinCells * cell_m;
+    });
+}
+
+Variant finest_variant(const std::vector<BodySetup>& bodies, double cell_m) {
+    Variant v{.defines = {{"SUBCUBES", fmt::format("{}", subcubes(bodies))}},
+              .declarations = shape_declarations(bodies)};
+    if (any_thin(bodies, cell_m)) v.defines.emplace_back("THIN", "");
+    return v;
+}
+
+Variant coarse_variant(const glm::ivec3& fine, const std::vector<BodySetup>& bodies, double cell_m) {
+    Variant v{.layouts = {{"FINE", Faces4::layout(fine)}},
+              .defines = {{"FINE_LAYERS", fmt::format("{}", fine.z + 1)}, {"FINE_CELLS", glsl(fine)}}};
+    if (any_thin(bodies, cell_m)) v.defines.emplace_back("THIN", "");
+    return v;
+}
+
 }  // namespace
 
-Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::vector<BodySetup>& bodies)
+Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::vector<BodySetup>& bodies,
+                     double cell_m)
     : grids_(grids),
       volumes_(new_fractions(gpu, grids[0])),
       finest_(gpu, "fractions", "gles/body/fractions.frag", Faces4::layout(grids[0]),
-              {.defines = {{"SUBCUBES", fmt::format("{}", subcubes(bodies))}},
-               .declarations = shape_declarations(bodies)}),
+              finest_variant(bodies, cell_m)),
       sharpen_(gpu, "sharpen fractions", "gles/body/sharpen_fractions.frag", Faces4::layout(grids[0])) {
     for (const glm::ivec3& n : grids) levels_.push_back(new_fractions(gpu, n));
     for (std::size_t l = 0; l + 1 < grids.size(); ++l)
         coarsen_.emplace_back(gpu, fmt::format("coarsen fractions {}", l + 1),
                               "gles/body/coarsen_fractions.frag", Faces4::layout(grids[l + 1]),
-                              Variant{.layouts = {{"FINE", Faces4::layout(grids[l])}},
-                                      .defines = {{"FINE_LAYERS", fmt::format("{}", grids[l].z + 1)},
-                                                  {"FINE_CELLS", glsl(grids[l])}}});
+                              coarse_variant(grids[l], bodies, cell_m));
 }
 
 void Fractions::update(const BodyUniforms& bodies, const std::vector<Box>& boxes) {

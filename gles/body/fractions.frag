@@ -14,8 +14,8 @@ void main() {
     vec3 low = vec3(c.xy, 4 * c.z);
     for (int lane = 0; lane < 4; ++lane) {
         vec3 corner = low + vec3(0.0, 0.0, lane);
-        ax[lane] = fluid_fraction_at(corner + vec3(0.0, 0.5, 0.5));
-        ay[lane] = fluid_fraction_at(corner + vec3(0.5, 0.0, 0.5));
-        az[lane] = fluid_fraction_at(corner + vec3(0.5, 0.5, 0.0));
+        ax[lane] = fluid_fraction_at(corner + vec3(0.0, 0.5, 0.5), vec3(1.0, 0.0, 0.0));
+        ay[lane] = fluid_fraction_at(corner + vec3(0.5, 0.0, 0.5), vec3(0.0, 1.0, 0.0));
+        az[lane] = fluid_fraction_at(corner + vec3(0.5, 0.5, 0.0), vec3(0.0, 0.0, 1.0));
     }
 }

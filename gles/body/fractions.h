@@ -16,7 +16,8 @@ struct FaceFractions {
 class Fractions {
   public:
     /// `grids`: cells of each level, finest first.
-    Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::vector<BodySetup>& bodies);
+    Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::vector<BodySetup>& bodies,
+              double cell_m);
 
     /// Draws the bodies where they are now; `boxes` hold each body and two cells around it.
     void update(const BodyUniforms& bodies, const std::vector<Box>& boxes);

@@ -81,7 +81,8 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
       fractions_(
           setup_.bodies.empty()
               ? std::optional<Fractions>()
-              : std::optional<Fractions>(std::in_place, gpu, multigrid_levels(setup_.cells), setup_.bodies)),
+              : std::optional<Fractions>(std::in_place, gpu, multigrid_levels(setup_.cells), setup_.bodies,
+                                         setup_.cell_m)),
       body_uniforms_(gpu, setup_.bodies, setup_.cell_m),
       divergence_(gpu, "divergence", "gles/fluid/divergence.frag", Cells4::layout(setup_.cells),
                   grid_variant(false)),

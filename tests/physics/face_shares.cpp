@@ -9,7 +9,7 @@ namespace eddy::gles {
 OnFaces face_shares(Gpu& gpu, const FluidSetup& setup, const std::vector<BodyState>& states) {
     BodyUniforms uniforms(gpu, setup.bodies, setup.cell_m);
     uniforms.set(states);
-    Fractions fractions(gpu, multigrid_levels(setup.cells), setup.bodies);
+    Fractions fractions(gpu, multigrid_levels(setup.cells), setup.bodies, setup.cell_m);
     fractions.update(uniforms, std::vector<Box>(states.size(), {glm::ivec3(0), setup.cells}));
     const FaceFractions& a = fractions.level(0);
     const glm::ivec3 n = setup.cells;

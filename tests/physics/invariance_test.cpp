@@ -17,7 +17,7 @@ Load traction_of(Gpu& gpu, const FluidSetup& s, const BodyState& state, const st
     BodyUniforms uniforms(gpu, s.bodies, s.cell_m);
     uniforms.set({state});
     const std::vector<Box> boxes{body_box(s.bodies[0], state, s.cell_m, s.cells)};
-    Fractions fractions(gpu, multigrid_levels(s.cells), s.bodies);
+    Fractions fractions(gpu, multigrid_levels(s.cells), s.bodies, s.cell_m);
     fractions.update(uniforms, boxes);
     Field<Cells4> field(gpu, s.cells, Format::RGBA32F);
     const std::vector<glm::vec4> texels = pack_four(phi, field.layout(), s.cells);

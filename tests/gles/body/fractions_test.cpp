@@ -18,7 +18,7 @@ class FractionsOfABall : public GlTest {
     const glm::ivec3 n{17, 14, 15};
     const std::vector<BodySetup> bodies{{Sphere{kRadius}}};
     BodyUniforms uniforms{gpu, bodies, 1.0};
-    Fractions fractions{gpu, multigrid_levels(n), bodies};
+    Fractions fractions{gpu, multigrid_levels(n), bodies, 1.0};
 
     void put(const glm::dvec3& centre) {
         BodyState state;

@@ -23,7 +23,7 @@ class Volume : public GlTest {
     double worst_error(const Shape& shape) {
         const std::vector<BodySetup> bodies{{shape}};
         const double exact = mass_properties(shape).volume_m3;
-        Fractions fractions(gpu, {n}, bodies);
+        Fractions fractions(gpu, {n}, bodies, 1.0);
         BodyUniforms uniforms(gpu, bodies, 1.0);
         double worst = 0.0;
         for (int pose = 0; pose < 4; ++pose) {

@@ -34,7 +34,7 @@ class ViscousStep : public GlTest {
             const BodyState state{.centre_m = 0.5 * glm::dvec3(n) + 0.1};
             t->bodies.set({state});
             const std::vector<Box> boxes{body_box(s.bodies[0], state, 1.0, n)};
-            Fractions fractions(gpu, {n}, s.bodies);
+            Fractions fractions(gpu, {n}, s.bodies, 1.0);
             fractions.update(t->bodies, boxes);
             t->term.place(t->bodies, boxes, fractions.level(0));
         }
