@@ -10,7 +10,6 @@ void refuse_what_is_not_in_this_version(const Scene& scene, Findings& findings) 
     const auto not_in_this_version = [&](const std::string& key, bool used) {
         if (used) rules.blame(key, "not in this version of eddy");
     };
-    not_in_this_version("initial.velocity_npy", !scene.initial.velocity_npy.empty());
     not_in_this_version("solver.time_order", scene.solver.time_order != 1);
     not_in_this_version("outputs.force_methods", scene.outputs.force_methods);
 }

@@ -1,6 +1,11 @@
 #include "firmware/fluid_setup.h"
 
+#include <fmt/ranges.h>
+
+#include <cmath>
+
 #include "firmware/input_error.h"
+#include "firmware/npy.h"
 #include "gles/body/distance_grid.h"
 #include "gles/body/mesh_file.h"
 
@@ -97,6 +102,26 @@ gles::Shape shape(const Scene::Body& b, double cell_m) {
     throw std::logic_error("a body shape without a solid");
 }
 
+/// The velocity that a simulation of the same tank has written.
+std::vector<glm::vec3> velocities(const Scene& scene) {
+    const std::filesystem::path& file = scene.initial.velocity_npy;
+    const NpyArray array = read_npy(file);
+    const glm::ivec3 n = scene.tank.cells + (scene.solver.preset == SolverPreset::Yang2009 ? 0 : 1);
+    const std::vector<int> shape{n.z, n.y, n.x, 3};
+    if (array.shape != shape)
+        throw InputError(fmt::format(
+            "{}: its shape is [{}], but this tank and solver have [{}]: write it with outputs.fields from a "
+            "scene with the same tank.cells and a preset of the same kind",
+            file.string(), fmt::join(array.shape, ", "), fmt::join(shape, ", ")));
+    std::vector<glm::vec3> u;
+    for (std::size_t i = 0; i < array.values.size(); i += 3) {
+        u.emplace_back(array.values[i], array.values[i + 1], array.values[i + 2]);
+        if (!std::isfinite(u.back().x + u.back().y + u.back().z))
+            throw InputError(fmt::format("{}: velocity number {} is not finite", file.string(), i / 3));
+    }
+    return u;
+}
+
 /// What of a body the fluid decides.
 std::optional<gles::Coupled> coupled(const Scene::Body& body, double fluid_density_kg_m3) {
     const bool free = body.motion == BodyMotion::Free;
@@ -123,6 +148,7 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
     if (scene.imposed)
         s.imposed = {glsl(scene.imposed->velocity_m_s, all_glsl), !scene.imposed->velocity_m_s.uses('t')};
     s.formula_helpers = formula_helpers(all_glsl);
+    if (!scene.initial.velocity_npy.empty()) s.velocities_at_start = velocities(scene);
     s.velocity_at_start = [u = scene.initial.velocity_m_s](const glm::dvec3& x_m) {
         return u.evaluate(x_m, 0.0);
     };

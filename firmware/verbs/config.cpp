@@ -13,7 +13,7 @@ int check_config(const std::string& file) {
     if (holds_a_scene(file)) {
         const Scene scene = load_scene(is_scene_file(file) ? file : "./" + file).scene;
         BodyMotions{scene};  // reads the paths
-        fluid_setup(scene);  // reads the meshes
+        fluid_setup(scene);  // reads the meshes and the flow at the start
         fmt::print("{}: a good scene\n", file);
     } else {
         load_exhibit_file(file);

@@ -120,6 +120,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
 }
 
 std::vector<glm::vec3> CutCellFluid::velocity_at_start() const {
+    if (!setup_.velocities_at_start.empty()) return setup_.velocities_at_start;
     const glm::ivec3 n = setup_.cells;
     std::vector<glm::vec3> u(static_cast<std::size_t>((n.x + 1) * (n.y + 1) * (n.z + 1)), glm::vec3(0.0f));
     if (!setup_.velocity_at_start) return u;

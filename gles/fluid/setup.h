@@ -153,6 +153,8 @@ struct FluidSetup {
     std::string formula_helpers{};          ///< GLSL functions that the formulas call
     /// Velocity at the start at a place of the tank [m]; empty: at rest.
     std::function<glm::dvec3(const glm::dvec3&)> velocity_at_start{};
+    /// In place of that: what Fluid::velocity() gives. Empty: none.
+    std::vector<glm::vec3> velocities_at_start{};
     std::optional<SmokeSetup> smoke{};
     std::optional<TemperatureSetup> temperature{};
     std::vector<SourceSetup> sources{};

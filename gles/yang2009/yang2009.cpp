@@ -46,8 +46,8 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
 
 void Yang2009Fluid::reset() {
     const glm::ivec3 n = setup_.cells;
-    std::vector<glm::vec3> u;
-    for (int z = 0; z < n.z; ++z)
+    std::vector<glm::vec3> u = setup_.velocities_at_start;
+    for (int z = 0; z < n.z && setup_.velocities_at_start.empty(); ++z)
         for (int y = 0; y < n.y; ++y)
             for (int x = 0; x < n.x; ++x)
                 u.emplace_back(setup_.velocity_at_start

@@ -161,6 +161,32 @@ TEST(Simulate, WritesWhatProbesMeasureAndTheVorticity) {
         EXPECT_NEAR(curl.values[i], i % 3 == 2 ? 6.0 : 0.0, 1e-3);
 }
 
+TEST(Simulate, GoesOnFromTheVelocityOfAnEarlierRun) {
+    // Without pressure to speak of, smoke or bodies, a flow knows nothing but its velocity: the last step but for the
+    // first guess of its pressure.
+    const ScratchFolder folder;
+    const std::string tank =
+        "[tank]\ncells = [16, 16, 16]\n[solver]\ncycles = 20\n"
+        "[outputs]\nfields = [\"velocity\"]\n[initial]\n";
+    const std::string whirl =
+        folder.write("whirl.toml", tank + "velocity_m_s = [\"y - 0.08\", \"0.08 - x\", \"x * y\"]\n");
+    const std::string again = folder.write("again.toml", tank + "velocity_npy = \"one/velocity.npy\"\n");
+    for (const auto& [scene, steps, out] :
+         {std::tuple(whirl, "1", "one"), {whirl, "2", "two"}, {again, "1", "then"}}) {
+        const Ended ended = eddy({"simulate", scene, "--steps", steps, "--out", folder / out});
+        ASSERT_EQ(ended.status, 0) << ended.err;
+    }
+    const Npy two = read_npy(folder / "two/velocity.npy"), then = read_npy(folder / "then/velocity.npy"),
+              one = read_npy(folder / "one/velocity.npy");
+    double difference = 0.0, change = 0.0;
+    for (std::size_t i = 0; i < two.values.size(); ++i) {
+        difference = std::max(difference, std::abs(static_cast<double>(two.values[i] - then.values[i])));
+        change = std::max(change, std::abs(static_cast<double>(two.values[i] - one.values[i])));
+    }
+    EXPECT_GT(change, 1e-4);
+    EXPECT_LT(difference, 1e-3 * change);
+}
+
 TEST(Simulate, ReplacesAnEarlierResult) {
     const ScratchFolder folder;
     const std::string out = folder / "out";

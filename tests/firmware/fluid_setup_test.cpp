@@ -1,6 +1,13 @@
 #include "firmware/fluid_setup.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <numeric>
+
+#include "firmware/input_error.h"
+#include "firmware/npy.h"
+#include "tests/scratch_folder.h"
 
 namespace eddy {
 namespace {
@@ -65,6 +72,34 @@ TEST(FluidSetup, CarriesTankSourcesAndBodiesOver) {
     EXPECT_EQ(std::get<gles::Sphere>(s.bodies[0].shape).radius_m, 0.03);
     EXPECT_FALSE(s.bodies[0].force);
     EXPECT_TRUE(s.bodies[0].torque);
+}
+
+TEST(FluidSetup, StartsFromTheVelocityOfAFile) {
+    const ScratchFolder folder;
+    std::vector<float> u(9 * 7 * 5 * 3);
+    std::iota(u.begin(), u.end(), 0.0f);
+    write_npy(folder / "u.npy", u, {5, 7, 9, 3});
+    const std::string initial = "[initial]\nvelocity_npy = \"" + folder / "u.npy" + "\"\n";
+    const std::string tank = "[tank]\nsize_m = [0.08, 0.06, 0.04]\ncells = [8, 6, 4]\n";
+    const gles::FluidSetup s = setup_of(tank + initial);
+    ASSERT_EQ(s.velocities_at_start.size(), 315u);
+    EXPECT_EQ(s.velocities_at_start[1], glm::vec3(3.0f, 4.0f, 5.0f));
+    const auto fault = [&](const std::string& scene) {
+        try {
+            setup_of(scene);
+        } catch (const InputError& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    const std::string shape =
+        folder / "u.npy" + ": its shape is [5, 7, 9, 3], but this tank and solver have ";
+    EXPECT_THAT(fault(initial), testing::StartsWith(shape + "[65, 65, 65, 3]: write it with outputs.fields"));
+    EXPECT_THAT(fault(tank + initial + "[solver]\npreset = \"yang2009\"\n"),
+                testing::StartsWith(shape + "[4, 6, 8, 3]: "));
+    u[37] = std::numeric_limits<float>::quiet_NaN();
+    write_npy(folder / "u.npy", u, {5, 7, 9, 3});
+    EXPECT_EQ(fault(tank + initial), folder / "u.npy" + ": velocity number 12 is not finite");
 }
 
 }  // namespace
