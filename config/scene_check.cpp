@@ -1,5 +1,7 @@
 #include "config/scene_check.h"
 
+#include <algorithm>
+
 #include "config/scene_rules.h"
 
 namespace eddy {
@@ -10,7 +12,11 @@ void refuse_what_is_not_in_this_version(const Scene& scene, Findings& findings) 
     const auto not_in_this_version = [&](const std::string& key, bool used) {
         if (used) rules.blame(key, "not in this version of eddy");
     };
-    not_in_this_version("solver.time_order", scene.solver.time_order != 1);
+    const bool coupled = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Scene::Body& body) {
+        return body.motion == BodyMotion::Free || body.turning;
+    });
+    not_in_this_version("solver.time_order",
+                        scene.solver.time_order != 1 && (coupled || scene.fluid.viscosity_pa_s != 0.0));
     not_in_this_version("outputs.force_methods", scene.outputs.force_methods);
 }
 

@@ -35,6 +35,7 @@ gles::SolverSetup solver_setup(const Scene::Solver& solver) {
         s.advection = *solver.advection == AdvectionScheme::MacCormack ? gles::Advection::MacCormack
                                                                        : gles::Advection::SemiLagrangian;
     if (solver.cycles) s.cycles = *solver.cycles;
+    s.time_order = solver.time_order;
     if (solver.viscous_cycles) s.viscous_cycles = *solver.viscous_cycles;
     if (solver.jacobi_sweeps) s.jacobi_sweeps = *solver.jacobi_sweeps;
     if (solver.force_sum)

@@ -1,19 +1,25 @@
 // advect_faces.frag     u* = u(x - dt u)         each face traced from its own centre: mirror-symmetric
 //
 // reads   velocity   RGBA32F  Faces (nx+1, ny+1, nz+1)   [m/s]
+// reads   carrier    RGBA32F  Faces                      [m/s]     variant CARRIER: what carries u, if not u itself
 // writes  u*         RGBA32F  Faces                      [m/s]
 // fetches 17
 #include "velocity.glsl"
 #include "beyond.glsl"
 
 uniform sampler2D velocity;
+#ifdef CARRIER
+uniform sampler2D carrier;
+#else
+#define carrier velocity
+#endif
 uniform float dt_h;  // dt / h  [s/m]
 
 out vec4 result;
 
 void main() {
     ivec3 c = cell_here(FACES);
-    FaceVelocities v = velocity_on_faces(velocity, c, at(velocity, FACES, c).xyz);
+    FaceVelocities v = velocity_on_faces(carrier, c, at(carrier, FACES, c).xyz);
     vec3 s = vec3(c) + 0.5;
     vec3 x = s - dt_h * v.x, y = s - dt_h * v.y, z = s - dt_h * v.z;
     result = vec4(to_walls(sample_linear(velocity, FACES, x).x, 0, x), to_walls(sample_linear(velocity, FACES, y).y, 1, y),

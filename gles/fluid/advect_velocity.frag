@@ -1,6 +1,7 @@
 // advect_velocity.frag     u* = u(x - dt u)         semi-Lagrangian: Stam 1999, "Stable fluids"
 //
 // reads   velocity   RGBA32F  Faces (nx+1, ny+1, nz+1)   [m/s]
+// reads   carrier    RGBA32F  Faces                      [m/s]     variant CARRIER: what carries u, if not u itself
 // writes  u*         RGBA32F  Faces                      [m/s]     walls are put right by the projection
 // fetches 6
 //
@@ -10,13 +11,18 @@
 #include "beyond.glsl"
 
 uniform sampler2D velocity;
+#ifdef CARRIER
+uniform sampler2D carrier;
+#else
+#define carrier velocity
+#endif
 uniform float dt_h;  // dt / h  [s/m]
 
 out vec4 result;
 
 void main() {
     ivec3 c = cell_here(FACES);
-    vec3 s = vec3(c) + 0.5 - dt_h * velocity_in_cell(velocity, c);
+    vec3 s = vec3(c) + 0.5 - dt_h * velocity_in_cell(carrier, c);
     vec3 u = sample_linear(velocity, FACES, s).xyz;
     result = vec4(to_walls(u.x, 0, s), to_walls(u.y, 1, s), to_walls(u.z, 2, s), 0.0);
 }

@@ -86,7 +86,8 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
       body_uniforms_(gpu, setup_.bodies, setup_.cell_m),
       divergence_(gpu, "divergence", "gles/fluid/divergence.frag", Cells4::layout(setup_.cells),
                   grid_variant(false)),
-      pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr, walls_, is_viscous()),
+      pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr, walls_,
+                is_viscous() || setup_.solver.time_order == 2),
       project_(make_projection()),
       diagnosis_(gpu, setup_),
       results_(gpu, setup_) {
@@ -98,6 +99,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
         add_pressure_.emplace(gpu, "add pressure", "gles/fluid/add_pressure.frag",
                               Cells4::layout(setup_.cells));
     }
+    if (setup_.solver.time_order == 2) reflection_.emplace(gpu, setup_);
     if (Coupling::needed(setup_)) coupling_.emplace(gpu, setup_, pressure_, body_uniforms_);
     if (Results::measures(setup_)) traction_.emplace(gpu, setup_, Results::width(setup_));
     const Fractions* solids = fractions_ ? &*fractions_ : nullptr;
@@ -159,38 +161,28 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
     dt_s_ = dt_s;
     std::vector<BodyState> bodies =
         coupling_ ? coupling_->predict(given, bodies_, dt_s) : given;  // x = x + dt U
-    body_uniforms_.set(bodies);
-    boxes_.clear();
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        boxes_.push_back(body_box(setup_.bodies[i], bodies[i], setup_.cell_m, setup_.cells));
-    Pressure::Work work{.cycles = setup_.solver.cycles + (step_ == 0 ? kColdCycles : 0),
-                        .guess_scale = guess_scale,
-                        .cut = boxes_,
-                        .rough = boxes_};
-    for (const SourceSetup& source : setup_.sources)
-        if (source.velocity_m_s && is_running(source, time_s_))
-            work.rough.push_back(ball_box(ball_cells(source, setup_.cell_m), setup_.cells));
-
-    if (fractions_) {
-        Gpu::Stage stage(gpu_, "voxelise");
-        fractions_->update(body_uniforms_, boxes_);  // a, where the bodies are now
-        if (viscosity_) viscosity_->place(body_uniforms_, boxes_, fractions_->level(0));
-    }
+    const double start_s = time_s_, end_s = time_s_ + dt_s;
+    std::optional<Reflection::Middle> middle;
+    if (reflection_) middle = go_to_the_middle(half_a_step_before(bodies, dt_s), 0.5f * guess_scale);
+    const double part_s = reflection_ ? 0.5 * dt_s : dt_s;  // of the step, from here on
+    Pressure::Work work = place(bodies);
+    work.guess_scale = guess_scale;
     Field<Faces> u;
     {
         Gpu::Stage stage(gpu_, "advect velocity");
-        u = drive_sources(advect_(u_, dt_s, walls_.time(time_s_)));  // u* = u(x - dt u)
+        u = drive_sources(advect_(middle ? middle->mirrored : u_, u_, part_s,
+                                  walls_.time(time_s_)));  // u* = u(x - dt u)
     }
-    if (smoke_) smoke_->step(u_, time_s_, dt_s, walls_.time(time_s_));  // s = s(x - dt u) + dt q
+    if (smoke_) smoke_->step(u_, start_s, dt_s, walls_.time(time_s_));  // s = s(x - dt u) + dt q
     if (temperature_)
-        temperature_->step(u_, time_s_, dt_s,
+        temperature_->step(u_, start_s, dt_s,
                            walls_.time(time_s_));  // T - kappa dt lap T = T(x - dt u) + dt q
     if (body_forces_) {
         Gpu::Stage stage(gpu_, "body forces");
-        u = add_body_forces(u);  // u* += dt (g (1 + w s - beta T) + f)
+        u = add_body_forces(u, end_s, part_s);  // u* += dt (g (1 + w s - beta T) + f)
     }
-    time_s_ += dt_s;
-    {
+    time_s_ = end_s;
+    if (!reflection_) {
         Gpu::Stage stage(gpu_, "pressure");
         phi_ = pressure_.follow(std::move(phi_), motions(bodies));
     }
@@ -214,17 +206,20 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
     }
     {
         Gpu::Stage stage(gpu_, "project");
-        u_ = project(u_star, viscosity_ ? increment_ : phi_, 1.0f);  // u = u* - grad phi
+        u_ = project(u_star, increment_ ? increment_ : phi_, 1.0f);  // u = u* - grad phi
     }
     ++step_;
     if (traction_) {
         Gpu::Stage stage(gpu_, "force");
-        traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_, results_.row(),
+        traction_->draw(reflection_ ? increment_ : phi_, fractions_->level(0), body_uniforms_, bodies, boxes_,
+                        reflection_ ? reflection_->second_loads() : results_.row(),
                         friction());  // F = int p grad(1 - a) + mu du/dn
+        if (reflection_) reflection_->add_loads(results_.row());
     }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
-        diagnosis_.draw({u_, b, divergence(u_), smoke(), temperature()}, results_.row());
+        diagnosis_.draw({u_, middle ? middle->divergence : b, divergence(u_), smoke(), temperature()},
+                        results_.row());
     }
     if (traction_ || wants_diagnosis) {
         Gpu::Stage stage(gpu_, "read back");
@@ -233,12 +228,69 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
     bodies_ = std::move(bodies);
 }
 
-Field<Faces> CutCellFluid::add_body_forces(const Field<Faces>& u) {
+Pressure::Work CutCellFluid::place(const std::vector<BodyState>& bodies) {
+    body_uniforms_.set(bodies);
+    boxes_.clear();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        boxes_.push_back(body_box(setup_.bodies[i], bodies[i], setup_.cell_m, setup_.cells));
+    if (fractions_) {
+        Gpu::Stage stage(gpu_, "voxelise");
+        fractions_->update(body_uniforms_, boxes_);  // a, where the bodies are now
+        if (viscosity_) viscosity_->place(body_uniforms_, boxes_, fractions_->level(0));
+    }
+    Pressure::Work work{
+        .cycles = setup_.solver.cycles + (step_ == 0 ? kColdCycles : 0), .cut = boxes_, .rough = boxes_};
+    for (const SourceSetup& source : setup_.sources)
+        if (source.velocity_m_s && is_running(source, time_s_))
+            work.rough.push_back(ball_box(ball_cells(source, setup_.cell_m), setup_.cells));
+    return work;
+}
+
+Reflection::Middle CutCellFluid::go_to_the_middle(const std::vector<BodyState>& bodies, float guess_scale) {
+    const double half_s = 0.5 * dt_s_;
+    Pressure::Work work = place(bodies);
+    work.guess_scale = guess_scale;
+    Field<Faces> u;
+    {
+        Gpu::Stage stage(gpu_, "advect velocity");
+        u = drive_sources(advect_(u_, u_, half_s, walls_.time(time_s_)));
+    }
+    if (body_forces_) {
+        Gpu::Stage stage(gpu_, "body forces");
+        u = add_body_forces(u, time_s_,
+                            half_s);  // of the smoke and heat at the start; the second half: at the end
+    }
+    time_s_ += half_s;
+    Field<Cells4> b;
+    {
+        Gpu::Stage stage(gpu_, "divergence");
+        b = divergence(u);
+    }
+    {
+        Gpu::Stage stage(gpu_, "pressure");
+        std::vector<BodyMotion> since = motions(bodies);
+        for (BodyMotion& body : since) body.moved *= 2.0f;  // since the middle of the last step
+        phi_ = pressure_.solve(pressure_.follow(std::move(phi_), since), b, work);
+    }
+    {
+        Gpu::Stage stage(gpu_, "project");
+        u_ = project(u, phi_, 1.0f);
+    }
+    if (traction_) {
+        Gpu::Stage stage(gpu_, "force");
+        traction_->draw(phi_, fractions_->level(0), body_uniforms_, bodies, boxes_,
+                        reflection_->first_loads(), std::nullopt);
+    }
+    Gpu::Stage stage(gpu_, "reflect");
+    return {reflection_->mirror(u_, u), std::move(b)};
+}
+
+Field<Faces> CutCellFluid::add_body_forces(const Field<Faces>& u, double time_s, double dt_s) {
     Field<Faces> next(gpu_, setup_.cells, Format::RGBA32F);
     std::vector<Input> inputs{{"velocity", &u.texture()}};
-    std::vector<Uniform> uniforms{{"dt", static_cast<float>(dt_s_)},
+    std::vector<Uniform> uniforms{{"dt", static_cast<float>(dt_s)},
                                   {"gravity", glm::vec3(setup_.gravity_m_s2)},
-                                  {"time", static_cast<float>(time_s_ + dt_s_)}};
+                                  {"time", static_cast<float>(time_s)}};
     if (has_weight(setup_)) {
         inputs.push_back({"smoke", &smoke_->field().texture()});
         uniforms.push_back({"weight", static_cast<float>(setup_.smoke->weight)});
@@ -271,8 +323,9 @@ Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, const Pressure::Work& 
 }
 
 Field<Cells4> CutCellFluid::solve_pressure(const Field<Cells4>& b, const Pressure::Work& work) {
-    if (!viscosity_) return pressure_.solve(std::move(phi_), b, work);
+    if (!viscosity_ && !reflection_) return pressure_.solve(std::move(phi_), b, work);
     increment_ = pressure_.solve(b, work);
+    if (reflection_) return reflection_->add(phi_, increment_);
     Field<Cells4> phi(gpu_, setup_.cells, Format::RGBA32F);
     add_pressure_->draw({{"phi", &phi_.texture()}, {"increment", &increment_.texture()}, {"b", &b.texture()}},
                         {{"scale", work.guess_scale}, {"lambda", diffusion_number(setup_, dt_s_)}},

@@ -7,6 +7,7 @@
 #include "gles/fluid/diagnosis.h"
 #include "gles/fluid/fluid.h"
 #include "gles/fluid/pressure.h"
+#include "gles/fluid/reflection.h"
 #include "gles/fluid/results.h"
 #include "gles/fluid/scalar.h"
 #include "gles/fluid/viscous_term.h"
@@ -46,7 +47,11 @@ class CutCellFluid final : public Fluid {
     std::vector<glm::vec3> velocity_at_start() const;
     std::vector<BodyMotion> motions(const std::vector<BodyState>& bodies) const;
     Field<Faces> drive_sources(Field<Faces> u);
-    Field<Faces> add_body_forces(const Field<Faces>& u);
+    Field<Faces> add_body_forces(const Field<Faces>& u, double time_s, double dt_s);
+    /// Puts the bodies where they are; returns what the pressure has to do around them and the sources.
+    Pressure::Work place(const std::vector<BodyState>& bodies);
+    /// The first half of a step at second order in time; leaves u_, phi_ and time_s_ there.
+    Reflection::Middle go_to_the_middle(const std::vector<BodyState>& bodies, float guess_scale);
     /// What passes near solids read besides their own.
     void add_solids(std::vector<Input>& inputs, std::vector<Uniform>& uniforms) const;
     /// The viscous step, with the last step's pressure in it.
@@ -84,6 +89,7 @@ class CutCellFluid final : public Fluid {
     Projection project_;
     std::optional<ViscousTerm> viscosity_;
     std::optional<Pass> add_pressure_;
+    std::optional<Reflection> reflection_;
     std::optional<Coupling> coupling_;
     std::optional<Traction> traction_;
     Diagnosis diagnosis_;

@@ -2,13 +2,19 @@
 //
 // reads   velocity   RGBA32F  Faces (nx+1, ny+1, nz+1)   [m/s]     u
 // reads   forward    RGBA32F  Faces                      [m/s]     u^
+// reads   carrier    RGBA32F  Faces                      [m/s]     variant CARRIER: what carries u, if not u itself
 // writes  u*         RGBA32F  Faces                      [m/s]
-// fetches 42
+// fetches 42, CARRIER 43
 #include "velocity.glsl"
 #include "maccormack.glsl"
 #include "beyond.glsl"
 
 uniform sampler2D velocity, forward;
+#ifdef CARRIER
+uniform sampler2D carrier;
+#else
+#define carrier velocity
+#endif
 uniform float dt_h;  // dt / h  [s/m]
 
 out vec4 result;
@@ -33,7 +39,7 @@ void main() {
     ivec3 c = cell_here(FACES);
     vec3 s = vec3(c) + 0.5;
     vec4 here = at(velocity, FACES, c), ahead = at(forward, FACES, c);
-    FaceVelocities v = velocity_on_faces(velocity, c, here.xyz);
+    FaceVelocities v = velocity_on_faces(carrier, c, at(carrier, FACES, c).xyz);
     result = vec4(corrected(0, s, dt_h * v.x, here, ahead), corrected(1, s, dt_h * v.y, here, ahead),
                   corrected(2, s, dt_h * v.z, here, ahead), 0.0);
 }

@@ -24,6 +24,7 @@ VelocityTransport::VelocityTransport(Gpu& gpu, const FluidSetup& setup, const Wa
     : gpu_(&gpu), cell_m_(setup.cell_m) {
     const AtlasLayout faces = Faces::layout(setup.cells);
     Variant variant{.layouts = {{"FACES", faces}}};
+    if (setup.solver.time_order == 2) variant.defines.emplace_back("CARRIER", "");
     walls.declare(variant);
     const bool corrects = setup.solver.advection == Advection::MacCormack;
     forward_.emplace(gpu, "advect velocity",
@@ -33,14 +34,16 @@ VelocityTransport::VelocityTransport(Gpu& gpu, const FluidSetup& setup, const Wa
         correct_.emplace(gpu, "correct velocity", "gles/fluid/maccormack_velocity.frag", faces, variant);
 }
 
-Field<Faces> VelocityTransport::operator()(const Field<Faces>& u, double dt_s, const Uniform& wall_time) {
+Field<Faces> VelocityTransport::operator()(const Field<Faces>& u, const Field<Faces>& carrier, double dt_s,
+                                           const Uniform& wall_time) {
     const std::vector<Uniform> uniforms{{"dt_h", static_cast<float>(dt_s / cell_m_)}, wall_time};
     Field<Faces> forward(*gpu_, u.cells(), Format::RGBA32F);
-    forward_->draw({{"velocity", &u.texture()}}, uniforms, {&forward.texture()});
+    std::vector<Input> inputs{{"velocity", &u.texture()}, {"carrier", &carrier.texture()}};
+    forward_->draw(inputs, uniforms, {&forward.texture()});
     if (!correct_) return forward;
     Field<Faces> corrected(*gpu_, u.cells(), Format::RGBA32F);
-    correct_->draw({{"velocity", &u.texture()}, {"forward", &forward.texture()}}, uniforms,
-                   {&corrected.texture()});
+    inputs.push_back({"forward", &forward.texture()});
+    correct_->draw(inputs, uniforms, {&corrected.texture()});
     return corrected;
 }
 

@@ -9,11 +9,13 @@
 
 namespace eddy::gles {
 
-/// Carries the velocity with itself: u* = u(x - dt u).
+/// Carries the velocity with itself: u* = u(x - dt u). At second order in time, with another one.
 class VelocityTransport {
   public:
     VelocityTransport(Gpu& gpu, const FluidSetup& setup, const Walls& walls);
-    Field<Faces> operator()(const Field<Faces>& u, double dt_s, const Uniform& wall_time);
+    /// `carrier`: u itself, unless time_order is 2.
+    Field<Faces> operator()(const Field<Faces>& u, const Field<Faces>& carrier, double dt_s,
+                            const Uniform& wall_time);
 
   private:
     Gpu* gpu_;

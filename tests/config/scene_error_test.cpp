@@ -269,7 +269,9 @@ TEST(SceneError, WhatThisVersionCannotDoIsRefusedByName) {
     for (const std::string& text : scenes_with_every_key(testing::TempDir() + "eddy_not_yet")) {
         EXPECT_THAT(complaints_about(text), Each(EndsWith(": not in this version of eddy")));
     }
-    EXPECT_THAT(complaints_about("[fluid]\nviscosity_pa_s = 0\n[solver]\ntime_order = 1\n"), IsEmpty());
+    EXPECT_THAT(complaints_about("[fluid]\nviscosity_pa_s = 0\n[solver]\ntime_order = 2\n"), IsEmpty());
+    EXPECT_THAT(complaints_about("[fluid]\nviscosity_pa_s = 0.1\n[solver]\ntime_order = 2\n"),
+                ElementsAre("s.toml:4:14: solver.time_order: not in this version of eddy"));
 }
 
 TEST(SceneError, MissingPathFileIsFoundBeforeAnythingRuns) {

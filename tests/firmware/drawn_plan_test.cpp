@@ -127,6 +127,10 @@ const std::pair<std::string_view, std::string_view> kEffects[] = {
      "[temperature]\nexpansion_1_k = 0.0034\ndiffusivity_m2_s = 0.01\ninitial_k = \"100 * y\"\n"
      "[[source]]\ncentre_m = [0.08, 0.03, 0.08]\nradius_m = 0.02\ntemperature_k_per_s = 40\n"
      "[[body]]\nradius_m = 0.02\ncentre_m = [0.08, 0.08, 0.08]\n"},
+    {"second_order",
+     "[tank]\ncells = [16, 16, 16]\n[fluid]\ngravity_m_s2 = [0, -9.81, 0]\n[smoke]\nweight = 1\n"
+     "[[body]]\nradius_m = 0.02\ncentre_m = [0.08, 0.08, 0.08]\nmotion = \"prescribed\"\n"
+     "velocity_m_s = [0.1, 0, 0]\n[solver]\npreset = \"precise\"\ntime_order = 2\n"},
     {"imposed_steady",
      "[tank]\ncells = [16, 16, 16]\n[smoke]\n[imposed]\nvelocity_m_s = [\"-y\", \"x\", 0]\n"},
     {"imposed_waving",

@@ -100,7 +100,7 @@ Balance balance(Gpu& gpu, Advection advection, int cycles) {
     for (int step = 0; step < 5; ++step) {
         const std::vector<glm::vec4> texels = pack_vectors(fluid->velocity(), before.layout());
         before.texture().upload(&texels[0].x);
-        const Field<Faces> advected = transport(before, dt, walls.time(0.0));
+        const Field<Faces> advected = transport(before, before, dt, walls.time(0.0));
         const std::vector<glm::vec3> u_advected =
             unpack_vectors(advected.texture().download(), advected.layout());
         const std::vector<glm::vec3> u_before = fluid->velocity();
