@@ -33,6 +33,12 @@ void for_each_of_four(const AtlasLayout& layout, const glm::ivec3& n, F f) {
 
 }  // namespace
 
+std::vector<glm::vec4> unpack_texels(const std::vector<glm::vec4>& texels, const AtlasLayout& layout) {
+    std::vector<glm::vec4> values(static_cast<std::size_t>(layout.size.x * layout.size.y * layout.size.z));
+    for_each_texel(layout, [&](std::size_t i, std::size_t t) { values[i] = texels[t]; });
+    return values;
+}
+
 std::vector<glm::vec3> unpack_vectors(const std::vector<glm::vec4>& texels, const AtlasLayout& layout) {
     std::vector<glm::vec3> values(static_cast<std::size_t>(layout.size.x * layout.size.y * layout.size.z));
     for_each_texel(layout, [&](std::size_t i, std::size_t t) { values[i] = glm::vec3(texels[t]); });

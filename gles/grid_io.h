@@ -10,6 +10,7 @@ namespace eddy::gles {
 // back.
 
 /// One texel for each index of the layout.
+std::vector<glm::vec4> unpack_texels(const std::vector<glm::vec4>& texels, const AtlasLayout& layout);
 std::vector<glm::vec3> unpack_vectors(const std::vector<glm::vec4>& texels, const AtlasLayout& layout);
 std::vector<glm::vec4> pack_vectors(const std::vector<glm::vec3>& values, const AtlasLayout& layout);
 /// For textures of one channel.

@@ -102,6 +102,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
     if (setup_.solver.time_order == 2) reflection_.emplace(gpu, setup_);
     if (Coupling::needed(setup_)) coupling_.emplace(gpu, setup_, pressure_, body_uniforms_);
     if (Results::measures(setup_)) traction_.emplace(gpu, setup_, Results::width(setup_));
+    if (setup_.force_methods && fractions_) force_methods_.emplace(gpu, setup_);
     const Fractions* solids = fractions_ ? &*fractions_ : nullptr;
     if (const auto smoke = Scalar::smoke(setup_)) smoke_.emplace(gpu, setup_, *smoke, walls_, solids);
     if (const auto heat = Scalar::temperature(setup_))
@@ -150,6 +151,7 @@ void CutCellFluid::reset() {
     results_.forget();
     bodies_.clear();
     if (coupling_) coupling_->reset();
+    if (force_methods_) force_methods_->reset();
     dt_s_ = 0.0;
     step_ = 0;
     time_s_ = 0.0;
@@ -170,8 +172,10 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
     Field<Faces> u;
     {
         Gpu::Stage stage(gpu_, "advect velocity");
-        u = drive_sources(advect_(middle ? middle->mirrored : u_, u_, part_s,
-                                  walls_.time(time_s_)));  // u* = u(x - dt u)
+        keep(&StepVelocities::before, u_);
+        u = advect_(middle ? middle->mirrored : u_, u_, part_s, walls_.time(time_s_));  // u* = u(x - dt u)
+        keep(&StepVelocities::carried, u);
+        u = drive_sources(std::move(u));
     }
     if (smoke_) smoke_->step(u_, start_s, dt_s, walls_.time(time_s_));  // s = s(x - dt u) + dt q
     if (temperature_)
@@ -181,6 +185,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
         Gpu::Stage stage(gpu_, "body forces");
         u = add_body_forces(u, end_s, part_s);  // u* += dt (g (1 + w s - beta T) + f)
     }
+    keep(&StepVelocities::forced, u);
     time_s_ = end_s;
     if (!reflection_) {
         Gpu::Stage stage(gpu_, "pressure");
@@ -189,6 +194,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
     if (viscosity_) {
         Gpu::Stage stage(gpu_, "viscosity");
         diffused_ = diffuse(u, work);  // u** - nu dt lap u** = u* - grad phi
+        keep(&StepVelocities::diffused, diffused_);
     }
     const Field<Faces>& u_star = viscosity_ ? diffused_ : u;
     Field<Cells4> b;
@@ -216,6 +222,11 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
                         friction());  // F = int p grad(1 - a) + mu du/dn
         if (reflection_) reflection_->add_loads(results_.row());
     }
+    if (force_methods_) {
+        Gpu::Stage stage(gpu_, "force methods");
+        keep(&StepVelocities::after, u_);
+        force_methods_->add_up(phi_, fractions_->level(0), body_uniforms_, boxes_, time_s_, dt_s);
+    }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
         diagnosis_.draw({u_, middle ? middle->divergence : b, divergence(u_), smoke(), temperature()},
@@ -226,6 +237,10 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
         results_.request(step_, dt_s, wants_diagnosis);
     }
     bodies_ = std::move(bodies);
+}
+
+void CutCellFluid::keep(ForceMethodsPass::Stage stage, const Field<Faces>& u) {
+    if (force_methods_) force_methods_->keep(stage, u);
 }
 
 Pressure::Work CutCellFluid::place(const std::vector<BodyState>& bodies) {
@@ -316,6 +331,7 @@ Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, const Pressure::Work& 
     // No pressure yet: without one the viscous step would take a fluid held by gravity for one that falls.
     if (step_ == 0) phi_ = pressure_.solve(divergence(u), work);
     const Field<Faces> predicted = project(u, phi_, work.guess_scale);
+    keep(&StepVelocities::predicted, predicted);
     // The last step's result is a better guess than this step's right-hand side: at rest in a steady flow it is the
     // solution, whatever the cycles leave.
     return viscosity_->diffuse(step_ == 0 ? predicted : diffused_, predicted, dt_s_,

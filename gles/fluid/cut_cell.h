@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "gles/body/force_methods.h"
 #include "gles/body/fractions.h"
 #include "gles/body/traction.h"
 #include "gles/fluid/coupling.h"
@@ -31,6 +32,9 @@ class CutCellFluid final : public Fluid {
     }
     std::vector<glm::vec3> velocity() const override;
     std::vector<float> pressure() const override;
+    std::vector<ForceMethods> force_methods() const override {
+        return force_methods_ ? force_methods_->forces() : std::vector<ForceMethods>();
+    }
     void set_velocity(const std::vector<glm::vec3>& u) override;
 
   private:
@@ -61,6 +65,8 @@ class CutCellFluid final : public Fluid {
     Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale);
     /// Gives the coupled bodies their velocities, and phi what those change in it.
     void couple(std::vector<BodyState>& bodies);
+    /// A velocity on its way through the step, for whoever adds up forces from it.
+    void keep(ForceMethodsPass::Stage stage, const Field<Faces>& u);
     /// What friction is computed from, in a viscous fluid.
     std::optional<Traction::Friction> friction() const;
     bool is_viscous() const { return setup_.viscosity_pa_s > 0.0; }
@@ -92,6 +98,7 @@ class CutCellFluid final : public Fluid {
     std::optional<Reflection> reflection_;
     std::optional<Coupling> coupling_;
     std::optional<Traction> traction_;
+    std::optional<ForceMethodsPass> force_methods_;
     Diagnosis diagnosis_;
     Results results_;  // loads and diagnosis
 };

@@ -51,6 +51,8 @@ class Fluid {
     virtual std::vector<glm::vec3> velocity() const = 0;
     /// Pressure [Pa] in each cell, for the last step; x fastest. Waits for the GPU.
     virtual std::vector<float> pressure() const = 0;
+    /// Forces by other ways, of the last step, one for each body; empty without setup().force_methods.
+    virtual std::vector<ForceMethods> force_methods() const { return {}; }
     /// Replaces the velocity field (same order as velocity()); it need not be free of divergence.
     virtual void set_velocity(const std::vector<glm::vec3>& u) = 0;
 

@@ -80,6 +80,8 @@ enum class WallKind {
 struct WallSetup {
     WallKind kind = WallKind::Slip;
     VectorFormula velocity_m_s{};  ///< of NoSlip, along it, and of Inflow
+    /// The same at a place [m] and time [s], for force_methods; empty: 0.
+    std::function<glm::dvec3(const glm::dvec3&, double)> velocity_at{};
 };
 
 /// A ball of fluid that is driven, or from which smoke comes, or both.
@@ -160,6 +162,8 @@ struct FluidSetup {
     std::optional<TemperatureSetup> temperature{};
     std::vector<SourceSetup> sources{};
     std::vector<BodySetup> bodies{};
+    bool force_methods =
+        false;  ///< measure forces in two more ways (gles/body/force_methods.h); CutCell only
     SolverSetup solver;
 };
 
@@ -175,6 +179,14 @@ struct BodyState {
     glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 velocity_m_s{0.0};
     glm::dvec3 spin_rad_s{0.0};
+};
+
+/// Force on a body by other ways than the sum of the stress over its surface (gles/body/force_methods.h), and the force that
+/// transport made or lost around it, for it does not conserve momentum.
+struct ForceMethods {
+    glm::dvec3 box_n{0.0};
+    glm::dvec3 impulse_n{0.0};
+    glm::dvec3 transport_n{0.0};
 };
 
 /// Force and torque (about the body's centre) ON the body BY the fluid, Tank frame.
