@@ -121,7 +121,7 @@ TEST_F(Reciprocity, OfTheResistanceOfABrickInCreepingFlow) {
     });
     record("asymmetry", asymmetry(m));
     record("coupling", coupling(m));
-    EXPECT_LT(asymmetry(m), 0.04);
+    EXPECT_LT(asymmetry(m), 1e-3);  // measured when the limit was set: 4e-5
     EXPECT_GT(coupling(m), 0.05);
 }
 
