@@ -17,7 +17,6 @@ void refuse_what_is_not_in_this_version(const Scene& scene, Findings& findings) 
     });
     not_in_this_version("solver.time_order",
                         scene.solver.time_order != 1 && (coupled || scene.fluid.viscosity_pa_s != 0.0));
-    not_in_this_version("outputs.force_methods", scene.outputs.force_methods);
 }
 
 void check(const Scene& scene, Findings& findings) {

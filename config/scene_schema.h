@@ -67,8 +67,10 @@ void describe(Visitor& v, Scene::Outputs& o) {
     v.value("series", o.series, "write series.csv: forces and sums at each step");
     v.value(
         "force_methods", o.force_methods,
-        "measure the forces in two more ways: by the balance of momentum, and by the impulse that the bodies "
-        "give to the fluid");
+        "measure the forces in two more ways: by the balance of momentum in a box around each body (columns "
+        "force_box_...), and by the impulse that the body gives to the fluid (force_impulse_...); "
+        "transport_... is "
+        "what transport makes or loses in the box; slower");
     v.value("fields", o.fields, "whole fields to write at the end, as .npy");
 }
 

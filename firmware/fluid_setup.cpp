@@ -64,7 +64,11 @@ gles::WallSetup wall_setup(const Scene::Wall& wall, std::string& all_glsl) {
             w.kind = gles::WallKind::Open;
             break;
     }
-    if (wall.velocity_m_s) w.velocity_m_s = glsl(*wall.velocity_m_s, all_glsl);
+    if (!wall.velocity_m_s) return w;
+    w.velocity_m_s = glsl(*wall.velocity_m_s, all_glsl);
+    w.velocity_at = [u = *wall.velocity_m_s](const glm::dvec3& x_m, double t_s) {
+        return u.evaluate(x_m, t_s);
+    };
     return w;
 }
 

@@ -12,11 +12,19 @@ namespace eddy {
 /// frame; the body's place and motion are those at the end of the step.
 class Series {
   public:
-    /// `more`: columns after those that every series has. Throws std::runtime_error if the file cannot be written.
-    Series(std::filesystem::path file, std::vector<std::string> bodies, const std::vector<std::string>& more);
-    /// `more`: a value for each of its columns; the same in the row of each body.
+    /// Columns after those that every series has.
+    struct More {
+        std::vector<std::string> of_each_body{}, of_all{};
+    };
+    /// A value for each of them: a list for each body, and one that is the same in all their rows.
+    struct MoreValues {
+        std::vector<std::vector<double>> of_each_body{};
+        std::vector<double> of_all{};
+    };
+    /// Throws std::runtime_error if the file cannot be written.
+    Series(std::filesystem::path file, std::vector<std::string> bodies, const More& more);
     void add(double time_s, const gles::StepResult& result, const std::vector<gles::BodyState>& bodies,
-             double step_ms, const std::vector<double>& more);
+             double step_ms, const MoreValues& more);
     /// Puts the file in its place. Throws std::runtime_error if the disk did not take it all.
     void finish();
 

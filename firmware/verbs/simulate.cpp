@@ -9,6 +9,7 @@
 #include "firmware/body_motion.h"
 #include "firmware/destination.h"
 #include "firmware/fluid_setup.h"
+#include "firmware/force_comparison.h"
 #include "firmware/graphics.h"
 #include "firmware/npy.h"
 #include "firmware/plan.h"
@@ -35,6 +36,7 @@ struct Summary {
     double wall_s = 0.0;
     double divergence_cut = 0.0;  // least factor by which a step cut max |div u|
     gles::StepResult last;
+    std::optional<ForceComparison> forces;  // where the scene asks for force_methods
 };
 
 void add_to(Summary& summary, const gles::StepResult& result) {
@@ -61,6 +63,9 @@ std::string to_json(const Summary& s, const LoadedScene& loaded, const gles::Gpu
         j["bodies"].push_back({{"name", loaded.scene.bodies[i].name},
                                {"last_force_n", {load.force_n.x, load.force_n.y, load.force_n.z}},
                                {"last_torque_nm", {load.torque_nm.x, load.torque_nm.y, load.torque_nm.z}}});
+        if (!s.forces) continue;
+        j["bodies"].back()["force_methods"] = {{"spread_over_force", s.forces->spread(i)},
+                                               {"transport_over_force", s.forces->transport(i)}};
     }
     if (s.last.diagnostics) {
         j["kinetic_energy_j"] = s.last.diagnostics->kinetic_energy_j;
@@ -109,7 +114,8 @@ int simulate(const SimulateOptions& options) {
     const LoadedScene loaded = load_scene(options.scene, options.set);
     const Scene& scene = loaded.scene;
     const BodyMotions motions(scene);
-    const gles::FluidSetup setup = fluid_setup(scene);
+    gles::FluidSetup setup = fluid_setup(scene);
+    setup.force_methods = scene.outputs.force_methods;
     const double dt = scene.solver.dt_s;
     const long steps = steps_of(options, scene);
     if (!options.out.empty() && !options.plan) prepare_folder("--out", options.out);
@@ -125,14 +131,16 @@ int simulate(const SimulateOptions& options) {
     if (!options.out.empty()) {
         std::vector<std::string> names;
         for (const Scene::Body& body : scene.bodies) names.push_back(body.name);
-        std::vector<std::string> more;
-        if (scene.temperature) more.emplace_back("temperature_total_k_m3");
-        for (std::string& column : probes.columns()) more.push_back(std::move(column));
+        Series::More more;
+        if (setup.force_methods) more.of_each_body = ForceComparison::columns();
+        if (scene.temperature) more.of_all.emplace_back("temperature_total_k_m3");
+        for (std::string& column : probes.columns()) more.of_all.push_back(std::move(column));
         if (scene.outputs.series)
             series.emplace(std::filesystem::path(options.out) / "series.csv", names, more);
     }
 
     Summary summary;
+    if (setup.force_methods) summary.forces.emplace(scene.bodies.size());
     Progress progress("simulate");
     const auto start = std::chrono::steady_clock::now();
     for (long n = 1; n <= steps; ++n) {
@@ -147,11 +155,14 @@ int simulate(const SimulateOptions& options) {
                             "tank (1/x, sqrt of a negative number), or a scene that no flow can follow",
                             n, steps));
         add_to(summary, result);
+        if (summary.forces) summary.forces->add(result.loads, fluid->force_methods());
         if (series) {
-            std::vector<double> more;
-            if (scene.temperature) more.push_back(result.diagnostics->temperature_total);
+            Series::MoreValues more;
+            for (const gles::ForceMethods& methods : fluid->force_methods())
+                more.of_each_body.push_back(ForceComparison::values(methods));
+            if (scene.temperature) more.of_all.push_back(result.diagnostics->temperature_total);
             const double step_ms = milliseconds_since(step_start);
-            for (const double value : probes.read(*fluid)) more.push_back(value);
+            for (const double value : probes.read(*fluid)) more.of_all.push_back(value);
             series->add(t, result, fluid->bodies(), step_ms, more);
         }
         progress.show(static_cast<double>(n), static_cast<double>(steps));
@@ -170,6 +181,8 @@ int simulate(const SimulateOptions& options) {
         const glm::dvec3 f = summary.last.loads[i].force_n;
         fmt::print("force on {} at the end: ({:.4e}, {:.4e}, {:.4e}) N\n", scene.bodies[i].name, f.x, f.y,
                    f.z);
+        if (summary.forces)
+            fmt::print("measured three ways it agrees within {:.2g} of it\n", summary.forces->spread(i));
     }
     if (!options.out.empty()) {
         const std::filesystem::path out(options.out);

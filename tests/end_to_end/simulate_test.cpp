@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -185,6 +187,54 @@ TEST(Simulate, GoesOnFromTheVelocityOfAnEarlierRun) {
     }
     EXPECT_GT(change, 1e-4);
     EXPECT_LT(difference, 1e-3 * change);
+}
+
+TEST(Simulate, MeasuresTheForceThreeWaysWhereASceneAsksForIt) {
+    const ScratchFolder folder;
+    const std::string out = folder / "out";
+    const std::string scene = folder.write("two.toml", R"(
+[tank]
+size_m = [0.16, 0.16, 0.16]
+cells = [16, 16, 16]
+[[body]]
+name = "first"
+shape = "sphere"
+radius_m = 0.03
+centre_m = [0.05, 0.06, 0.08]
+motion = "prescribed"
+acceleration_m_s2 = [1, 0, 0]
+[[body]]
+name = "second"
+shape = "box"
+size_m = [0.04, 0.04, 0.04]
+centre_m = [0.11, 0.1, 0.08]
+[outputs]
+force_methods = true
+)");
+    const Ended ended = eddy({"simulate", scene, "--steps", "3", "--out", out});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const std::vector<std::string> lines = lines_of(read_all(out + "/series.csv"));
+    ASSERT_EQ(lines.size(), 7u);
+    const std::vector<std::string> names = split(lines[0], ',');
+    const auto column = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    };
+    for (std::size_t row = 1; row < lines.size(); ++row) {
+        const std::vector<std::string> cells = split(lines[row], ',');
+        ASSERT_EQ(cells.size(), names.size());
+        const auto value = [&](const std::string& name) { return std::stod(cells.at(column(name))); };
+        const double force = value("force_x_n");
+        EXPECT_NE(force, 0.0);
+        EXPECT_NEAR(value("force_box_x_n"), force, 1e-4 * std::abs(force)) << lines[row];
+        EXPECT_NEAR(value("force_impulse_x_n"), force, 1e-4 * std::abs(force)) << lines[row];
+        EXPECT_TRUE(std::isfinite(value("transport_x_n")));
+    }
+    const nlohmann::json summary = nlohmann::json::parse(read_all(out + "/summary.json"));
+    for (const nlohmann::json& body : summary.at("bodies")) {
+        const double spread = body.at("force_methods").at("spread_over_force");
+        EXPECT_LT(spread, 1e-4);
+        EXPECT_GE(body.at("force_methods").at("transport_over_force").get<double>(), 0.0);
+    }
 }
 
 TEST(Simulate, ReplacesAnEarlierResult) {
