@@ -1,11 +1,8 @@
 #include "gles/fluid/coupling.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
-#include "gles/body/bounds.h"
-#include "gles/fluid/results.h"
+#include "gles/fluid/resistance.h"
 #include "gles/grid_io.h"
 
 namespace eddy::gles {
@@ -99,8 +96,7 @@ Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUn
         const BodySetup& body = setup.bodies[i];
         if (!body.coupled) continue;
         bodies_.push_back({i, RigidBody(body.shape, body.coupled->density_kg_m3),
-                           body.coupled->density_kg_m3 / setup.density_kg_m3,
-                           std::cbrt(0.75 / std::numbers::pi * mass_properties(body.shape).volume_m3)});
+                           body.coupled->density_kg_m3 / setup.density_kg_m3});
         for (const bool turns : {false, true}) {
             const bool pressed = !turns || !is_round(body);
             if (!(turns ? body.coupled->turns : body.coupled->moves)) continue;
@@ -223,7 +219,7 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
         const Vector6 before = body.solid.momentum(before_[u.index], guess.orientation);
         const Vector6 motion{guess.velocity_m_s.x, guess.velocity_m_s.y, guess.velocity_m_s.z,
                              guess.spin_rad_s.x,   guess.spin_rad_s.y,   guess.spin_rad_s.z};
-        const double rate = resistance_1_s(body, triples_[k / 3].turns, states, dt);
+        const double rate = resistance_1_s(setup_, states, u.index, triples_[k / 3].turns, dt);
         double momentum = before[u.component];
         for (std::size_t c = 0; c < 6; ++c) momentum -= mass[u.component][c] * motion[c];
         // What the water that would be in its place weighs is what carries it at rest; exactly that, on this grid.
@@ -242,34 +238,6 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
         for (std::size_t l = 0; l < system.unknowns(); ++l) system.a(k, l) += dt * resistance.a(k, l);
     }
     return system;
-}
-
-double Coupling::room_m(const Body& body, const std::vector<BodyState>& states) const {
-    const double reach = bounding_radius_m(setup_.bodies[body.index].shape);
-    const glm::dvec3& here = states[body.index].centre_m;
-    const glm::dvec3 to_walls = glm::min(here, setup_.cell_m * glm::dvec3(setup_.cells) - here);
-    double room = std::min({to_walls.x, to_walls.y, to_walls.z}) - reach;
-    for (std::size_t i = 0; i < setup_.bodies.size(); ++i) {
-        if (i == body.index) continue;
-        const double far = glm::distance(here, states[i].centre_m);
-        const double other = bounding_radius_m(setup_.bodies[i].shape);
-        room = std::min(room, (setup_.bodies[i].inside_out ? other - far : far - other) - reach);
-    }
-    return std::max(room, setup_.cell_m);
-}
-
-double Coupling::resistance_1_s(const Body& body, bool turns, const std::vector<BodyState>& states,
-                                double dt_s) const {
-    if (setup_.viscosity_pa_s == 0.0) return 0.0;
-    // Of a ball of its volume: Stokes, 6 pi mu a and 8 pi mu a^3, over the mass and the moment of inertia of its fluid; the layer
-    // that starts to move within one step (Basset); and what is squeezed out before a wall (a / gap times Stokes: Cox,
-    // Brenner 1967, Chem. Eng. Sci. 22). With half of this a ball of 1 % of the fluid's density became unstable in fluids so
-    // thick that a step is longer than all it takes to set them moving; so there is half as much more.
-    const double a = body.radius_m, nu = setup_.viscosity_pa_s / setup_.density_kg_m3;
-    const double layer = 2.0 * a / std::sqrt(std::numbers::pi * nu * dt_s);
-    const double stokes =
-        nu / (a * a) * (turns ? 15.0 * (1.0 + layer / 3.0) : 4.5 * (1.0 + layer + a / room_m(body, states)));
-    return 1.5 * stokes;
 }
 
 void Coupling::solve(std::vector<BodyState>& states, const Step& step) {

@@ -22,7 +22,9 @@ namespace eddy::gles {
 ///   M_a = -rho h^3 J phi_k    the added mass
 ///
 /// and the pressure of the step is phi_g + sum (V - V_g) phi_k. Friction is what V_g causes; D, an estimate of its
-/// resistance to more, keeps light bodies stable in thick fluids and is multiplied by 0 when the motion is steady.
+/// resistance to more (resistance.h), keeps light bodies stable in thick fluids and is multiplied by 0 when the motion is
+/// steady. The guess goes on with the last step's acceleration, by the share (M + M_a) / (M + M_a + dt D) of it: where friction
+/// rules, a velocity ends at once what it was heading for.
 ///
 /// The sums J phi must be known before the step can end: a scene with such a body waits for the GPU once a step.
 ///
@@ -59,7 +61,6 @@ class Coupling {
         std::size_t index;
         RigidBody solid;
         double density_ratio;  ///< to the fluid's
-        double radius_m;       ///< of a ball of its volume
     };
     /// Three velocities that the fluid decides: of a body's centre, in m/s, or of its turning, in m/s per cell.
     struct Triple {
@@ -84,11 +85,6 @@ class Coupling {
     /// J phi of all pressures.
     Sums add_up(const std::vector<BodyState>& states, const Step& step);
     LinearSystem newton(const std::vector<BodyState>& states, const Step& step, const Sums& sums);
-    /// From the ball around a body to the nearest wall or body, at least one cell.
-    double room_m(const Body& body, const std::vector<BodyState>& states) const;
-    /// D over the inertia of the fluid in the body's place.
-    double resistance_1_s(const Body& body, bool turns, const std::vector<BodyState>& states,
-                          double dt_s) const;
 
     Gpu& gpu_;
     const FluidSetup& setup_;

@@ -45,9 +45,11 @@ TEST_F(FreeBody, ChangesItsMomentumByTheForceOfTheFluidAndItsWeight) {
     glm::dvec3 before(0.0);
     double weight = 0.0;
     for (int i = 0; i < 20; ++i) {
-        fluid->step(dt, {kMiddle}, false);
+        fluid->step(dt, {kMiddle}, true);
         const glm::dvec3 now = fluid->bodies()[0].velocity_m_s;
-        const glm::dvec3 force = fluid->wait_result().loads[0].force_n;
+        const StepResult result = fluid->wait_result();
+        const glm::dvec3 force = result.loads[0].force_n;
+        EXPECT_LT(result.diagnostics->divergence_max_1_s, 1e-3 * glm::length(now)) << "the fluid makes way";
         const glm::dvec3 rest = mass * (now - before) / dt - force;
         weight = std::max(weight, std::abs(rest.y + mass));
         EXPECT_LT(std::abs(rest.x) + std::abs(rest.z), 1e-4 * mass);
@@ -64,11 +66,13 @@ TEST_F(FreeBody, RisesWithoutEverTurningBackWhenItIsLight) {
         const std::unique_ptr<Fluid> fluid = make_fluid(gpu, well(Sphere{3.6}, 0.01, viscosity));
         double speed = 0.0, height = kMiddle.centre_m.y;
         for (int i = 0; i < (viscosity > 0.0 ? 15 : 30); ++i) {
-            fluid->step(0.1, {kMiddle}, false);
+            fluid->step(0.1, {kMiddle}, true);
             const BodyState& ball = fluid->bodies()[0];
             EXPECT_GT(ball.velocity_m_s.y, 0.9 * speed) << "viscosity " << viscosity << ", step " << i;
             EXPECT_GE(ball.centre_m.y, height);
             speed = ball.velocity_m_s.y;
+            EXPECT_LT(fluid->wait_result().diagnostics->divergence_max_1_s, 3e-3 * speed)
+                << "viscosity " << viscosity << ", step " << i;
             height = ball.centre_m.y;
         }
         record(fmt::format("speed_{}", viscosity).c_str(), speed);
