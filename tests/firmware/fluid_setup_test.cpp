@@ -102,5 +102,20 @@ TEST(FluidSetup, StartsFromTheVelocityOfAFile) {
     EXPECT_EQ(fault(tank + initial), folder / "u.npy" + ": velocity number 12 is not finite");
 }
 
+TEST(FluidSetup, LetsTheFluidMoveFreeBodiesAndTurnTurningOnes) {
+    const gles::FluidSetup s = setup_of(
+        "[fluid]\ndensity_kg_m3 = 900\n"
+        "[[body]]\nradius_m = 0.01\ncentre_m = [0.03, 0.08, 0.08]\n"
+        "[[body]]\nradius_m = 0.01\ncentre_m = [0.08, 0.08, 0.08]\nmotion = \"free\"\ndensity_kg_m3 = 50\n"
+        "[[body]]\nshape = \"box\"\nsize_m = [0.01, 0.02, 0.03]\nmotion = \"held\"\nturning = true\n");
+    EXPECT_FALSE(s.bodies.at(0).coupled);
+    EXPECT_TRUE(s.bodies.at(1).coupled.value().moves);
+    EXPECT_TRUE(s.bodies.at(1).coupled.value().turns);
+    EXPECT_EQ(s.bodies.at(1).coupled.value().density_kg_m3, 50.0);
+    EXPECT_FALSE(s.bodies.at(2).coupled.value().moves);
+    EXPECT_TRUE(s.bodies.at(2).coupled.value().turns);
+    EXPECT_EQ(s.bodies.at(2).coupled.value().density_kg_m3, 900.0);
+}
+
 }  // namespace
 }  // namespace eddy

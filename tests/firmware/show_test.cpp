@@ -117,6 +117,28 @@ TEST_F(ShowTest, AHandThatIsNotKnownLeavesTheBodyWhereItIs) {
     show.publish(true);
 }
 
+TEST_F(ShowTest, ShowsBodiesWhereTheFluidTookThemAndTheHandWhereItIs) {
+    Show show(gpu,
+              read_scene("[tank]\ncells = [16, 16, 16]\n[fluid]\ngravity_m_s2 = [0, -9.81, 0]\n"
+                         "[[body]]\nshape = \"ellipsoid\"\nradii_m = [0.02, 0.03, 0.02]\nmotion = \"held\"\n"
+                         "turning = true\nangle_deg = 30\n"
+                         "[[body]]\nradius_m = 0.02\ncentre_m = [0.04, 0.08, 0.04]\nmotion = \"free\"\n"
+                         "density_kg_m3 = 0.12\n",
+                         "test.toml")
+                  .scene,
+              exchange);
+    const glm::dquat start = show.bodies().at(0).orientation;
+    for (int n = 1; n <= 4; ++n) {
+        hand_at({0.08 + 0.002 * n * n, 0.08, 0.12}, n * 20ms);
+        show.update(n * 20ms, kDt, false);
+    }
+    EXPECT_GT(show.bodies().at(1).centre_m.y, 0.081) << "lighter than air, it rises";
+    EXPECT_EQ(show.bodies().at(0).centre_m, glm::dvec3(0.112, 0.08, 0.12));
+    EXPECT_NE(show.bodies().at(0).orientation, start) << "the air turns it";
+    show.reset();
+    EXPECT_EQ(show.bodies().at(1).centre_m, glm::dvec3(0.04, 0.08, 0.04));
+}
+
 TEST_F(ShowTest, FiguresRangeOverTheForceAfterGain) {
     for (const double gain : {1.0, 20000.0}) {
         HapticExchange own;
