@@ -125,7 +125,7 @@ std::vector<Case> taylor_green_cases() {
                      .scene = "validation/A1",
                      .set = {"solver.dt_s=0.015625"},
                      .time_step = TimeStep::Courant,
-                     .quick = {16, 32, 64},
+                     .quick = {16, 32},
                      .full = {16, 32, 64, 128},
                      .quantities = {kVelocity, kViscosity},
                      .measure = decay_of});

@@ -13,7 +13,10 @@ struct KnownMiss {
     std::string quantity;
     double error;  ///< asked meanwhile
 };
-const std::vector<KnownMiss> kKnownMisses{};
+const std::vector<KnownMiss> kKnownMisses{
+    {"A16-precise", "M / M_0 - 1", 0.08},  // neither transport conserves smoke; measured: 5.7 % more
+    {"A16-fast", "M / M_0 - 1", 0.15},     // 11 % less
+};
 
 bool is_tolerated(const std::string& one, const Quantity& quantity, const Reading& reading) {
     for (const KnownMiss& miss : kKnownMisses)
@@ -21,17 +24,17 @@ bool is_tolerated(const std::string& one, const Quantity& quantity, const Readin
     return false;
 }
 
-std::vector<const Case*> quick_cases() {
-    std::vector<const Case*> quick;
+std::vector<std::string> quick_cases() {
+    std::vector<std::string> quick;
     for (const Case& one : all_cases())
-        if (!one.quick.empty()) quick.push_back(&one);
+        if (!one.quick.empty()) quick.push_back(one.name);
     return quick;
 }
 
-class Validation : public gles::GlTest, public testing::WithParamInterface<const Case*> {};
+class Validation : public gles::GlTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Validation, KeepsItsLimits) {
-    const Case& one = *GetParam();
+    const Case& one = *cases_named(GetParam()).front();
     const Study made = study(gpu, one, one.quick);
     for (const Row& row : made.rows)
         for (std::size_t q = 0; q < row.readings.size(); ++q) {
@@ -44,8 +47,8 @@ TEST_P(Validation, KeepsItsLimits) {
         }
 }
 
-std::string test_name(const testing::TestParamInfo<const Case*>& info) {
-    std::string name = info.param->name;
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+    std::string name = info.param;
     for (char& c : name)
         if (c == '-' || c == '.') c = '_';
     return name;
