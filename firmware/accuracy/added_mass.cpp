@@ -42,7 +42,7 @@ std::vector<Case> added_mass_cases() {
          .quick = {30, 60},
          .full = {30, 45, 60, 90},
          .quantities = {c_m("C_m", 0.50730, mfs, {{30, 0.04}, {60, 0.012}}),
-                        c_m("C_m, off the cells", 0.50730, "the same, 0.57 cells off the middle",
+                        c_m("C_m off the cells", 0.50730, "the same, 0.57 cells off the middle",
                             {{30, 0.04}, {60, 0.012}})},
          .measure = at_places},
         {.name = "B2-shell",
@@ -51,7 +51,7 @@ std::vector<Case> added_mass_cases() {
          .quick = {26},
          .full = {26, 39, 52},
          .quantities = {c_m("C_m", 0.60256, shell, {{26, 0.02}}),
-                        c_m("C_m, off the cells", 0.60256, "the same, both 0.57 cells aside", {{26, 0.02}})},
+                        c_m("C_m off the cells", 0.60256, "the same, both 0.57 cells aside", {{26, 0.02}})},
          .measure = at_places}};
 }
 

@@ -49,7 +49,7 @@ std::vector<Quantity> factors(const std::string& name, double exact) {
              .error = relative,
              .limits = limits,
              .least_order = 1.7},
-            {.name = name + ", off the cells",
+            {.name = name + " off the cells",
              .exact = exact,
              .source = "the same, 0.38 cells off the middle",
              .error = relative,

@@ -65,13 +65,13 @@ std::vector<Case> sphere_drag_cases() {
              .scene = "validation/B6-Re100",
              .time_step = TimeStep::Courant,
              .full = {120},
-             .quantities = {{.name = "C_D, no walls",
+             .quantities = {{.name = "C_D without walls",
                              .exact = 1.087,
                              .source = "steady axisymmetric spectral solution; Clift, Grace and Weber 1978",
                              .error = relative,
                              .limits = {{120, 0.1}}},
-                            {.name = "C_D, 8 wide", .exact = 1.087, .source = "the same", .error = relative},
-                            {.name = "C_D, 5 wide", .exact = 1.087, .source = "the same", .error = relative}},
+                            {.name = "C_D 8 wide", .exact = 1.087, .source = "the same", .error = relative},
+                            {.name = "C_D 5 wide", .exact = 1.087, .source = "the same", .error = relative}},
              .measure = without_walls}};
 }
 
