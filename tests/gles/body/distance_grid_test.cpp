@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "gles/body/bounds.h"
@@ -57,16 +56,11 @@ TEST(TriangleTree, FindsTheSameWhereverItBeginsToLook) {
     }
 }
 
-TEST(DistanceGrid, OfABallIsTheBallsDistanceAndIsMadeInSeconds) {
+TEST(DistanceGrid, OfABallIsTheBallsDistance) {
     const double radius = 2.0;
     const glm::dvec3 centre(1.0, -0.5, 0.3);
     const TriangleMesh ball = icosphere(radius, 4, centre);  // 5120 triangles
-    const auto start = std::chrono::steady_clock::now();
     const DistanceGrid grid(ball, 64, 0.5);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    // Measured 0.7 s; with 20480 triangles 1.6 s, with 81920 4.0 s. Most of that are nodes near the middle,
-    // from where all triangles are equally far: few meshes are worse.
-    EXPECT_LT(took.count(), 8.0);
 
     // Triangles with edges of 0.08 R lie up to 0.0011 R inside the sphere. Linear between nodes, the distance
     // R + d from a point comes out up to h^2 / 4 (R + d) too large (h^2 / 8 for each of its two curvatures).
