@@ -67,8 +67,6 @@ void force_methods_have_a_force(SceneRules& rules) {
                     "there is no body whose force is measured: add one with force = true");
     else if (!scene.outputs.series)
         rules.blame("outputs.force_methods", "writes to series.csv, but outputs.series is false");
-    else if (scene.solver.time_order == 2)
-        rules.blame("outputs.force_methods", "follows a step that is not split in halves: set solver.time_order = 1");
     else if (scene.solver.preset == SolverPreset::Yang2009)
         rules.blame("outputs.force_methods", "preset = \"yang2009\" measures the force in its own way only");
 }

@@ -16,7 +16,8 @@ void refuse_what_is_not_in_this_version(const Scene& scene, Findings& findings) 
         return body.motion == BodyMotion::Free || body.turning;
     });
     not_in_this_version("solver.time_order",
-                        scene.solver.time_order != 1 && (coupled || scene.fluid.viscosity_pa_s != 0.0));
+                        scene.solver.time_order != 1 &&
+                            (coupled || scene.fluid.viscosity_pa_s != 0.0 || scene.outputs.force_methods));
 }
 
 void check(const Scene& scene, Findings& findings) {

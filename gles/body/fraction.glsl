@@ -57,7 +57,8 @@ float not_parted(vec3 x, vec3 axis) {
     vec3 low = x - 0.5 * axis + vec3(1e-3, 7e-4, 4e-4);
     vec3 n_low = away_from_solid(low), n_high = away_from_solid(low + axis);
     float fall = -dot(n_low, axis), rise = dot(n_high, axis);
-    if (dot(n_low, n_high) >= 0.0 || fall <= 0.0 || rise <= 0.0) return 1.0;
+    // By more than 120 degrees: at an edge, surfaces that meet at right angles part nothing.
+    if (dot(n_low, n_high) >= -0.5 * length(n_low) * length(n_high) || fall <= 0.0 || rise <= 0.0) return 1.0;
     // Where the surfaces' tangent planes meet on the way lies the middle of a plate, or the open side of its rim.
     float t = (solid_distance(low) - solid_distance(low + axis) + rise) / (fall + rise);
     return step(0.0, solid_distance(low + clamp(t, 0.0, 1.0) * axis));

@@ -189,8 +189,7 @@ Coupling::Sums Coupling::add_up(const std::vector<BodyState>& states, const Step
     uniforms_.set(states);
     draw(step.phi, kPressure, step.friction);
     std::optional<Traction::Friction> none;
-    if (step.friction)
-        none.emplace(Traction::Friction{step.friction->velocity, step.friction->grip, 0.0f});
+    if (step.friction) none.emplace(Traction::Friction{step.friction->velocity, step.friction->grip, 0.0f});
     if (hydrostatic_) draw(*hydrostatic_, kHydrostatic, none);
     for (std::size_t t = 0; t < triples_.size(); ++t)
         for (std::size_t axis = 0; axis < triples_[t].potentials.size(); ++axis)

@@ -78,11 +78,10 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
       phi_(gpu, setup_.cells, Format::RGBA32F),
       walls_(setup_),
       advect_(gpu, setup_, walls_),
-      fractions_(
-          setup_.bodies.empty()
-              ? std::optional<Fractions>()
-              : std::optional<Fractions>(std::in_place, gpu, multigrid_levels(setup_.cells), setup_.bodies,
-                                         setup_.cell_m)),
+      fractions_(setup_.bodies.empty()
+                     ? std::optional<Fractions>()
+                     : std::optional<Fractions>(std::in_place, gpu, multigrid_levels(setup_.cells),
+                                                setup_.bodies, setup_.cell_m)),
       body_uniforms_(gpu, setup_.bodies, setup_.cell_m),
       divergence_(gpu, "divergence", "gles/fluid/divergence.frag", Cells4::layout(setup_.cells),
                   grid_variant(false)),

@@ -115,7 +115,7 @@ TEST_F(FractionsOfABall, ReturnToOneBehindIt) {
     for (const glm::dvec3 centre :
          {glm::dvec3(4.0, 5.0, 5.0), glm::dvec3(13.0, 9.0, 10.0), glm::dvec3(12.5, 5.0, 3.0)})
         put(centre);
-    Fractions fresh(gpu, multigrid_levels(n), bodies);
+    Fractions fresh(gpu, multigrid_levels(n), bodies, 1.0);
     BodyState state;
     state.centre_m = {12.5, 5.0, 3.0};
     fresh.update(uniforms, {body_box(bodies[0], state, 1.0, n)});
