@@ -2,6 +2,7 @@
 //
 // phi: velocity potential dt p / (rho h) [m/s], Cells4. Away from solids every a is 1; variant CUT reads them from Faces4.
 // Tank walls are closed: no term; with THROUGH, openings have phi = 0 outside (walls.h). Padding beyond the last layer takes no part. PHI is the layout of phi, CELLS its grid.
+// Variant LAST_LINK (vec3): on such a grid an opening may lie before the last cell's centre; this much stronger is the link to it.
 // Variant LAST_CELL (vec3): on the coarse grids of an odd grid the last cell of an axis is only partly inside; this is how
 // much. Faces along it are smaller by the same share, as the averaged fractions of variant CUT know by themselves.
 uniform sampler2D phi;
@@ -22,6 +23,15 @@ vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
     float has_xl = float(c.x > 0), has_xh = float(c.x + 1 < CELLS.x);
     float has_yl = float(c.y > 0), has_yh = float(c.y + 1 < CELLS.y);
     centre = p;
+#ifdef LAST_LINK
+    float link_xl = c.x + 1 < CELLS.x ? 1.0 : LAST_LINK.x, link_xh = c.x + 2 < CELLS.x ? 1.0 : LAST_LINK.x;
+    float link_yl = c.y + 1 < CELLS.y ? 1.0 : LAST_LINK.y, link_yh = c.y + 2 < CELLS.y ? 1.0 : LAST_LINK.y;
+    vec4 link_zl = mix(vec4(LAST_LINK.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(CELLS.z))));
+    vec4 link_zh = mix(vec4(LAST_LINK.z), vec4(1.0), vec4(lessThan(z + 2.0, vec4(CELLS.z))));
+#else
+    const float link_xl = 1.0, link_xh = 1.0, link_yl = 1.0, link_yh = 1.0;
+    const vec4 link_zl = vec4(1.0), link_zh = vec4(1.0);
+#endif
 #ifdef THROUGH
     // Open walls: phi = 0 outside, half a cell away.
     float out_x = float(c.x == 0) * OPEN_LOW.x + float(c.x + 1 == CELLS.x) * OPEN_HIGH.x;
@@ -30,9 +40,9 @@ vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
 #endif
 #ifdef CUT
     vec4 lz = at(az, FRACTION, c);
-    vec4 wxl = has_xl * at(ax, FRACTION, c), wxh = has_xh * at(ax, FRACTION, c + ivec3(1, 0, 0));
-    vec4 wyl = has_yl * at(ay, FRACTION, c), wyh = has_yh * at(ay, FRACTION, c + ivec3(0, 1, 0));
-    vec4 wzl = has_zl * lz, wzh = has_zh * vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x);
+    vec4 wxl = link_xl * has_xl * at(ax, FRACTION, c), wxh = link_xh * has_xh * at(ax, FRACTION, c + ivec3(1, 0, 0));
+    vec4 wyl = link_yl * has_yl * at(ay, FRACTION, c), wyh = link_yh * has_yh * at(ay, FRACTION, c + ivec3(0, 1, 0));
+    vec4 wzl = link_zl * has_zl * lz, wzh = link_zh * has_zh * vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x);
     diagonal = valid * (wxl + wxh + wyl + wyh + wzl + wzh);
     vec4 sum = valid * (wxl * (xl - p) + wxh * (xh - p) + wyl * (yl - p) + wyh * (yh - p) + wzl * (zl - p) + wzh * (zh - p));
 #ifdef THROUGH
@@ -49,9 +59,10 @@ vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
     return sum;
 #else
     // Clamping made phi_nb = phi at the walls in x and y, so only the diagonal must know of them.
-    vec4 in_x = valid * (has_xl + has_xh), in_y = valid * (has_yl + has_yh), in_z = valid * (has_zl + has_zh);
-    vec4 lap_x = valid * (xl + xh - 2.0 * p), lap_y = valid * (yl + yh - 2.0 * p);
-    vec4 lap_z = valid * (has_zl * (zl - p) + has_zh * (zh - p));
+    vec4 in_x = valid * (link_xl * has_xl + link_xh * has_xh), in_y = valid * (link_yl * has_yl + link_yh * has_yh);
+    vec4 in_z = valid * (link_zl * has_zl + link_zh * has_zh);
+    vec4 lap_x = valid * (link_xl * (xl - p) + link_xh * (xh - p)), lap_y = valid * (link_yl * (yl - p) + link_yh * (yh - p));
+    vec4 lap_z = valid * (link_zl * has_zl * (zl - p) + link_zh * has_zh * (zh - p));
 #ifdef LAST_CELL
     float sx = c.x + 1 < CELLS.x ? 1.0 : LAST_CELL.x, sy = c.y + 1 < CELLS.y ? 1.0 : LAST_CELL.y;
     vec4 sz = mix(vec4(LAST_CELL.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(CELLS.z))));

@@ -41,7 +41,12 @@ void Walls::declare(Variant& variant, const glm::vec3& covered) const {
     if (rub()) variant.defines.emplace_back("FRICTION", "");
 
     // A wall is half a cell from the centres of the cells beside it; on a coarse grid it may cut the last one.
-    const glm::vec3 nearness = 1.0f / glm::max(covered - 0.5f, glm::vec3(0.25f));
+    const glm::vec3 beyond = covered - 0.5f;  // how far behind that one's centre
+    const glm::vec3 nearness = 1.0f / glm::max(beyond, glm::vec3(0.25f));
+    // An opening at or before that centre holds it at 0, and the link to it is as long as the way to the opening: a little
+    // too long a way, on the coarsest grids, and odd numbers of cycles make the pressure grow from step to step.
+    const glm::vec3 pinned = 1.0f / glm::max(beyond, glm::vec3(1e-3f));
+    glm::vec3 last_link(1.0f);
     glm::vec3 friction[2], open[2], inflow[2];
     std::string velocity;
     for (int wall = 0; wall < 6; ++wall) {
@@ -49,12 +54,17 @@ void Walls::declare(Variant& variant, const glm::vec3& covered) const {
         const int axis = wall / 2, high = wall % 2;
         const float weight = high ? nearness[axis] : 2.0f;
         friction[high][axis] = sticks(w) ? weight : 0.0f;
-        open[high][axis] = w.kind == WallKind::Open ? weight : 0.0f;
+        open[high][axis] = w.kind != WallKind::Open ? 0.0f : high ? pinned[axis] : 2.0f;
+        if (high && w.kind == WallKind::Open && beyond[axis] < 0.0f)
+            last_link[axis] = 1.0f / (1.0f + beyond[axis]);
         inflow[high][axis] = w.kind == WallKind::Inflow ? 1.0f : 0.0f;
         if (!sticks(w)) continue;
         const auto& f = w.velocity_m_s.glsl;
         velocity += fmt::format("    if (wall == {}) return vec3({}, {}, {});\n", wall, f[0], f[1], f[2]);
     }
+    if (last_link != glm::vec3(1.0f))
+        variant.defines.emplace_back(
+            "LAST_LINK", fmt::format("vec3({:.8f}, {:.8f}, {:.8f})", last_link.x, last_link.y, last_link.z));
     variant.declarations += setup_->formula_helpers;
     variant.declarations += constant("FRICTION_LOW", friction[0]) + constant("FRICTION_HIGH", friction[1]) +
                             constant("OPEN_LOW", open[0]) + constant("OPEN_HIGH", open[1]) +
