@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace eddy::accuracy {
 
@@ -33,7 +34,11 @@ void FaceVelocity::for_each_face(const std::function<void(const glm::ivec3&, int
 
 double FaceVelocity::fastest_m_s() const {
     float most = 0.0f;
-    for (const glm::vec3& u : u_) most = std::max(most, glm::length(u));
+    for (const glm::vec3& u : u_) {
+        const float speed = glm::length(u);
+        if (!std::isfinite(speed)) return std::numeric_limits<double>::quiet_NaN();
+        most = std::max(most, speed);
+    }
     return most;
 }
 

@@ -135,8 +135,8 @@ Box body_box(const BodySetup& body, const BodyState& state, double cell_m, const
 
 glm::ivec3 largest_body_box(const BodySetup& body, double cell_m, const glm::ivec3& cells) {
     if (body.inside_out) return cells;
-    // A position within a cell can add one.
-    const double edge = 2.0 * (bounding_radius_m(body.shape) / cell_m + kMargin);
+    // Of a mesh, extent() turns the box that holds it. A position within a cell can add one.
+    const double edge = 2.0 * (bounding_ball(body.shape).radius_m / cell_m + kMargin);
     return glm::min(glm::ivec3(static_cast<int>(std::ceil(edge)) + 1), cells);
 }
 

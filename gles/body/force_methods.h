@@ -41,7 +41,10 @@ class ForceMethodsPass {
     /// Of the last step, one for each body.
     const std::vector<ForceMethods>& forces() const { return forces_; }
     /// Forgets the shares of the last step.
-    void reset() { shares_before_.clear(); }
+    void reset() {
+        shares_before_.clear();
+        forces_.clear();
+    }
 
   private:
     const FluidSetup& setup_;

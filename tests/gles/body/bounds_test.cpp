@@ -111,7 +111,10 @@ TEST(Bounds, BodyBoxOfAContainerIsTheWholeGrid) {
 TEST(Bounds, NoBodyBoxIsLargerThanTheLargest) {
     Random random(3);
     const glm::ivec3 cells(60, 60, 60);
-    for (const NamedShape& named : all_shapes()) {
+    std::vector<NamedShape> shapes = all_shapes();
+    shapes.push_back(
+        {"round mesh", Mesh{std::make_shared<DistanceGrid>(icosphere(3.0, 2, glm::dvec3(0.0)), 12)}});
+    for (const NamedShape& named : shapes) {
         const glm::ivec3 largest = largest_body_box({named.shape}, 0.4, cells);
         for (int pose = 0; pose < 200; ++pose) {
             BodyState state;
