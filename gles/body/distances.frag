@@ -13,7 +13,7 @@ uniform sampler2D ax, ay, az;
 layout(location = 0) out vec4 d;
 layout(location = 1) out vec4 v;
 
-const float kReach = 0.83;  // as in grip.frag
+#include "reach.glsl"
 
 #ifndef COARSE
 float lane(sampler2D a, ivec3 c) {

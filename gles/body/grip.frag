@@ -19,7 +19,7 @@ layout(location = 0) out vec4 w;
 layout(location = 1) out vec4 surface;
 #endif
 
-const float kReach = 0.83;        // from a face to the surface that just touches its cell [cells]: 0.8 to 0.87, by fraction.glsl
+#include "reach.glsl"
 const float kLeastMiddle = 0.02;
 
 vec3 middle(vec3 d) {
