@@ -26,13 +26,14 @@ glm::dvec3 velocity(const BodyState& state, const std::optional<std::size_t>& fi
     return state.velocity_m_s + glm::dvec3(change[*first], change[*first + 1], change[*first + 2]);
 }
 
-/// Adds  c n (n . (V_a - V_b) - speed) = 0  to the rows of a and b.
-void hold(LinearSystem& system, const std::optional<std::size_t>& a, const std::optional<std::size_t>& b,
-          const glm::dvec3& normal, double speed) {
+/// Adds  c n (n . (V_a - V_b) - speed) = 0  to the rows of a and b. c follows from the `free` system: from one that
+/// others hold already it would grow a thousandfold with every contact.
+void hold(LinearSystem& system, const LinearSystem& free, const std::optional<std::size_t>& a,
+          const std::optional<std::size_t>& b, const glm::dvec3& normal, double speed) {
     double c = 0.0;
     for (const auto& first : {a, b})
         for (std::size_t i = 0; first && i < 3; ++i)
-            c = std::max(c, kStiffness * system.a(*first + i, *first + i));
+            c = std::max(c, kStiffness * free.a(*first + i, *first + i));
     for (const auto& [row, sign] : {std::pair{a, 1.0}, std::pair{b, -1.0}})
         for (int i = 0; row && i < 3; ++i) {
             const std::size_t k = *row + static_cast<std::size_t>(i);
@@ -99,7 +100,7 @@ std::vector<double> Contacts::solve(const LinearSystem& system, const std::vecto
         LinearSystem held = system;
         for (const Pair& pair : near)
             if (pair.touches)
-                hold(held, unknowns[pair.a], unknowns[pair.b], pair.normal,
+                hold(held, system, unknowns[pair.a], unknowns[pair.b], pair.normal,
                      -std::max(pair.gap_m, 0.0) / dt_s -
                          glm::dot(pair.normal, states[pair.a].velocity_m_s - states[pair.b].velocity_m_s));
         for (std::size_t k = 0; k < fixed.size(); ++k)

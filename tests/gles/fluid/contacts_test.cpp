@@ -107,5 +107,19 @@ TEST(Contacts, LetALongBodyCloserWithItsSideThanWithItsEnd) {
     }
 }
 
+TEST(Contacts, KeepTheMomentumOfABallThatSixOthersRunInto) {
+    const glm::dvec3 middle(10.0), x(2.5, 0.0, 0.0), y(0.0, 2.5, 0.0), z(0.0, 0.0, 2.5);
+    Balls balls({at(middle), at(middle - x, x), at(middle + x, -2.0 * x), at(middle - y, y),
+                 at(middle + y, -3.0 * y), at(middle - z, 2.0 * z), at(middle + z, -z)});
+    Contacts contacts(balls.setup);
+    const auto change = contacts.solve(balls.system, balls.states, balls.unknowns, 0.1);
+    glm::dvec3 before(0.0), after(0.0);
+    for (std::size_t i = 0; i < balls.states.size(); ++i) {
+        before += static_cast<double>(i + 1) * balls.states[i].velocity_m_s;
+        after += static_cast<double>(i + 1) * balls.velocity(i, change);
+    }
+    EXPECT_NEAR(glm::length(after - before), 0.0, 1e-9 * glm::length(before));
+}
+
 }  // namespace
 }  // namespace eddy::gles
