@@ -27,7 +27,8 @@ std::vector<double> worst_of_places(Laboratory& lab) {
         scene.bodies[0].centre_m += scene.tank.cell_m() * i / kPlaces * glm::dvec3(1.0, 0.7, 0.4);
         Run run = lab.start(scene);
         const double share = buoyancy(run, run.step_to_end(), 0);
-        if (!(std::abs(share - 1.0) <= std::abs(worst - 1.0))) worst = share;
+        if (!std::isfinite(share)) return {share};
+        if (std::abs(share - 1.0) > std::abs(worst - 1.0)) worst = share;
     }
     return {worst};
 }

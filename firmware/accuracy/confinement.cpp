@@ -85,7 +85,8 @@ std::vector<double> feeding(Laboratory& lab) {
     const double gained = (fed.velocity().energy() - u.energy()) / fed.dt_s();
     double changed = 0.0;
     u.for_each_face([&](const glm::ivec3& c, int k, double) {
-        changed = std::max(changed, std::abs(same.at(c, k) - u.at(c, k)));
+        const double change = std::abs(same.at(c, k) - u.at(c, k));
+        if (!(change <= changed) && !std::isnan(changed)) changed = change;  // not a number is not "none"
     });
     return {gained / f.power_w_kg, glm::length(f.sum) / f.sum_of_lengths, changed};
 }
