@@ -13,10 +13,6 @@ FaceFractions new_fractions(Gpu& gpu, const glm::ivec3& n) {
     return {{gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}, {gpu, n, Format::RGBA32F}};
 }
 
-std::vector<Input> inputs(const FaceFractions& a) {
-    return {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}};
-}
-
 std::vector<const Texture*> outputs(const FaceFractions& a) {
     return {&a.x.texture(), &a.y.texture(), &a.z.texture()};
 }
@@ -60,6 +56,10 @@ Variant coarse_variant(const glm::ivec3& fine, const std::vector<BodySetup>& bod
 
 }  // namespace
 
+std::vector<Input> FaceFractions::inputs() const {
+    return {{"ax", &x.texture()}, {"ay", &y.texture()}, {"az", &z.texture()}};
+}
+
 Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::vector<BodySetup>& bodies,
                      double cell_m)
     : grids_(grids),
@@ -98,9 +98,9 @@ void Fractions::update(const BodyUniforms& bodies, const std::vector<Box>& boxes
 
 void Fractions::draw(const BodyUniforms& bodies, const Region& finest, const std::vector<Region>& coarse) {
     finest_.draw(bodies.inputs(), bodies.uniforms(), outputs(volumes_), finest);
-    sharpen_.draw(inputs(volumes_), {}, outputs(levels_[0]), finest);
+    sharpen_.draw(volumes_.inputs(), {}, outputs(levels_[0]), finest);
     for (std::size_t l = 0; l < coarsen_.size(); ++l)
-        coarsen_[l].draw(inputs(levels_[l]), {}, outputs(levels_[l + 1]), coarse[l]);
+        coarsen_[l].draw(levels_[l].inputs(), {}, outputs(levels_[l + 1]), coarse[l]);
 }
 
 }  // namespace eddy::gles

@@ -3,12 +3,16 @@
 
 #include "gles/body/shapes.h"
 #include "gles/field.h"
+#include "gles/pass.h"
 
 namespace eddy::gles {
 
 /// The fluid's share of the staggered cell around every face of one grid, axis by axis.
 struct FaceFractions {
     Field<Faces4> x, y, z;
+
+    /// ax, ay, az of the shaders.
+    std::vector<Input> inputs() const;
 };
 
 /// Face fractions on the finest grid and on the coarse grids of the pressure solver. Only the boxes where a

@@ -30,10 +30,8 @@ Grip::Grip(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::vector<Bod
 
 void Grip::update(const BodyUniforms& bodies, const std::vector<Box>& boxes, const FaceFractions& fractions) {
     std::vector<Box> here = boxes, before = before_;
-    std::vector<Input> inputs = bodies.inputs();
-    inputs.insert(
-        inputs.end(),
-        {{"ax", &fractions.x.texture()}, {"ay", &fractions.y.texture()}, {"az", &fractions.z.texture()}});
+    std::vector<Input> inputs = fractions.inputs();
+    inputs.insert(inputs.end(), bodies.inputs().begin(), bodies.inputs().end());
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         const Level& level = levels_[l];
         boxes_[l].clear();

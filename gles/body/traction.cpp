@@ -28,10 +28,9 @@ Traction::Traction(Gpu& gpu, const FluidSetup& setup, int target_width) : gpu_(&
 void Traction::draw(const Field<Cells4>& phi, const FaceFractions& a, const BodyUniforms& uniforms,
                     const std::vector<BodyState>& states, const std::vector<Box>& boxes,
                     const Texture& target, const std::optional<Friction>& friction, int first) {
-    std::vector<Input> inputs = uniforms.inputs();
-    inputs.insert(
-        inputs.end(),
-        {{"phi", &phi.texture()}, {"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
+    std::vector<Input> inputs = a.inputs();
+    inputs.push_back({"phi", &phi.texture()});
+    inputs.insert(inputs.end(), uniforms.inputs().begin(), uniforms.inputs().end());
     std::vector<Uniform> values = uniforms.uniforms();
     if (friction) {
         inputs.push_back({"velocity", &friction->velocity.texture()});

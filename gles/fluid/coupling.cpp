@@ -168,10 +168,8 @@ void Coupling::draw_potentials(const std::vector<BodyState>& states, const Step&
             glm::dvec3& velocity = triple.turns ? unit[body].spin_rad_s : unit[body].velocity_m_s;
             velocity[static_cast<glm::length_t>(axis)] = triple.turns ? 1.0 / setup_.cell_m : 1.0;
             uniforms_.set(unit);
-            std::vector<Input> inputs = uniforms_.inputs();
-            inputs.insert(
-                inputs.end(),
-                {{"ax", &step.a.x.texture()}, {"ay", &step.a.y.texture()}, {"az", &step.a.z.texture()}});
+            std::vector<Input> inputs = step.a.inputs();
+            inputs.insert(inputs.end(), uniforms_.inputs().begin(), uniforms_.inputs().end());
             flux_.draw(inputs, uniforms_.uniforms(), {&b_.texture()}, Region::packed(touched));
             Field<Cells4>& phi = triple.potentials[axis];
             if (!step.motions.empty()) phi = pressure_.follow(std::move(phi), {step.motions[body]});

@@ -383,8 +383,8 @@ Field<Faces> CutCellFluid::drive_sources(Field<Faces> u) {
 }
 
 void CutCellFluid::add_solids(std::vector<Input>& inputs, std::vector<Uniform>& uniforms) const {
-    const FaceFractions& a = fractions_->level(0);
-    inputs.insert(inputs.end(), {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
+    const std::vector<Input> a = fractions_->level(0).inputs();
+    inputs.insert(inputs.end(), a.begin(), a.end());
     inputs.insert(inputs.end(), body_uniforms_.inputs().begin(), body_uniforms_.inputs().end());
     const std::vector<Uniform> of_bodies = body_uniforms_.uniforms();
     uniforms.insert(uniforms.end(), of_bodies.begin(), of_bodies.end());

@@ -16,13 +16,6 @@ constexpr double kEnough =
     500.0;                  // error before to error after, of the sweeps where there is no coarser grid
 constexpr int kCycles = 3;  // each leaves about a sixth of the error
 
-/// Weights of n sweeps. With the diagonal of the equation inside the tank, V (1 + 6 lambda), the eigenvalues lie between
-/// 1 / (1 + 6 lambda) and twice 1 less that; they damp those down to `low`.
-std::vector<float> weights(int n, float lambda, double low) {
-    const double least = 1.0 / (1.0 + 6.0 * static_cast<double>(lambda));
-    return chebyshev_weights(n, std::max(low, least), 2.0 - least);
-}
-
 /// So many that the error falls to 1 / kEnough, by the Chebyshev polynomial's value outside the eigenvalues; a power of 2.
 int sweeps_alone(float lambda) {
     const double outside = std::acosh(1.0 + 1.0 / (6.0 * static_cast<double>(lambda)));
@@ -83,8 +76,8 @@ void Diffusion::draw(Pass& pass, std::size_t l, std::vector<Input> inputs, float
     std::vector<Uniform> all = uniforms;
     all.push_back({"lambda", lambda});
     if (fractions_) {
-        const FaceFractions& a = fractions_->level(l);
-        inputs.insert(inputs.end(), {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
+        const std::vector<Input> a = fractions_->level(l).inputs();
+        inputs.insert(inputs.end(), a.begin(), a.end());
     }
     pass.draw(inputs, all, {&out});
 }
@@ -103,9 +96,9 @@ Field<Cells> Diffusion::cycle(std::size_t l, const Field<Cells>* guess, const Fi
                               float lambda) {
     const bool coarsest = l + 1 == used_;
     // Before and after the coarser grids: what they cannot hold. On the coarsest: everything.
-    const std::vector<float> omegas = coarsest
-                                          ? weights(l == 0 ? sweeps_alone(lambda) : kMostSweeps, lambda, 0.08)
-                                          : weights(2, lambda, 1.0 / 3.0);
+    const std::vector<float> omegas =
+        coarsest ? diffusion_weights(l == 0 ? sweeps_alone(lambda) : kMostSweeps, lambda, 0.08)
+                 : diffusion_weights(2, lambda, 1.0 / 3.0);
     Field<Cells> t = smooth(l, guess, rhs, lambda, omegas[0]);
     for (std::size_t i = 1; i < omegas.size(); ++i) t = smooth(l, &t, rhs, lambda, omegas[i]);
     if (coarsest) return t;

@@ -53,6 +53,11 @@ std::vector<float> chebyshev_weights(int m, double low, double high) {
     return weights;
 }
 
+std::vector<float> diffusion_weights(int m, float lambda, double low) {
+    const double least = 1.0 / (1.0 + 6.0 * static_cast<double>(lambda));
+    return chebyshev_weights(m, std::max(low, least), 2.0 - least);
+}
+
 Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions, const Walls& walls,
                    bool from_zero)
     : gpu_(&gpu), fractions_(fractions) {
@@ -114,8 +119,8 @@ void Pressure::draw(Split& pass, std::size_t l, std::vector<Input> inputs,
         pass.plain.draw(inputs, uniforms, {&out});
         return;
     }
-    const FaceFractions& a = fractions_->level(l);
-    inputs.insert(inputs.end(), {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
+    const std::vector<Input> a = fractions_->level(l).inputs();
+    inputs.insert(inputs.end(), a.begin(), a.end());
     pass.plain.draw(inputs, uniforms, {&out});
     if (pass.cut) pass.cut->draw(inputs, uniforms, {&out}, Region::packed(boxes));
 }
@@ -147,8 +152,8 @@ void Pressure::sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std
     Pass& cut = sweep.cut ? *sweep.cut : sweep.plain;
     std::vector<Input> inputs{{"phi", &phi.texture()}, {"b", &b.texture()}};
     if (fractions_) {
-        const FaceFractions& a = fractions_->level(0);
-        inputs.insert(inputs.end(), {{"ax", &a.x.texture()}, {"ay", &a.y.texture()}, {"az", &a.z.texture()}});
+        const std::vector<Input> a = fractions_->level(0).inputs();
+        inputs.insert(inputs.end(), a.begin(), a.end());
     }
     cut.draw(inputs, {{"omega", kSmoother[0]}, {"scale", 1.0f}}, {&there.texture()}, Region::packed(wider));
     inputs[0].texture = &there.texture();

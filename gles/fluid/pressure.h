@@ -84,4 +84,7 @@ class Pressure {
 /// partial product small (natural order overflows 32-bit floats for m around 20).
 std::vector<float> chebyshev_weights(int m, double low, double high);
 
+/// The same for (1 - lambda laplacian): eigenvalues between 1 / (1 + 6 lambda) and twice 1 less that, damped down to `low`.
+std::vector<float> diffusion_weights(int m, float lambda, double low);
+
 }  // namespace eddy::gles

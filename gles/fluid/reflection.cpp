@@ -1,5 +1,6 @@
 #include "gles/fluid/reflection.h"
 
+#include "gles/body/rigid_body.h"
 #include "gles/fluid/results.h"
 
 namespace eddy::gles {
@@ -42,8 +43,7 @@ void Reflection::add_loads(const Texture& row) {
 std::vector<BodyState> half_a_step_before(std::vector<BodyState> bodies, double dt_s) {
     for (BodyState& body : bodies) {
         body.centre_m -= 0.5 * dt_s * body.velocity_m_s;
-        if (const double spin = glm::length(body.spin_rad_s); spin > 0.0)
-            body.orientation = glm::angleAxis(-0.5 * dt_s * spin, body.spin_rad_s / spin) * body.orientation;
+        body.orientation = turned(body.orientation, body.spin_rad_s, -0.5 * dt_s);
     }
     return bodies;
 }

@@ -13,13 +13,6 @@ namespace {
 constexpr float kLeastLambda = 0.125f;  // below it two sweeps leave nothing for a coarser grid to do
 constexpr int kCoarsestSweeps = 4;
 
-/// Weights of n sweeps. The eigenvalues of D^-1 A lie around 1, between 1 / (1 + 6 lambda) and twice 1 less that;
-/// they damp those down to `low`.
-std::vector<float> weights(int n, float lambda, double low) {
-    const double least = 1.0 / (1.0 + 6.0 * static_cast<double>(lambda));
-    return chebyshev_weights(n, std::max(low, least), 2.0 - least);
-}
-
 }  // namespace
 
 float ViscousTerm::Equation::on(std::size_t level) const {
@@ -97,7 +90,7 @@ Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, const 
     const float lambda = equation.on(l);
     // Before and after the coarser grids: what they cannot hold. On the coarsest: everything.
     const std::vector<float> omegas =
-        coarsest ? weights(kCoarsestSweeps, lambda, 0.1) : weights(2, lambda, 1.0 / 3.0);
+        coarsest ? diffusion_weights(kCoarsestSweeps, lambda, 0.1) : diffusion_weights(2, lambda, 1.0 / 3.0);
     Field<Faces> u = smooth(l, guess, rhs, omegas[0], equation);
     for (std::size_t i = 1; i < omegas.size(); ++i) u = smooth(l, &u, rhs, omegas[i], equation);
     if (coarsest) return u;
