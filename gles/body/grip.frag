@@ -11,7 +11,8 @@
 // less than the face's own distance d if some of the cell is solid, and never nothing as long as there is fluid. Links
 // between neighbours have the mean of their shares. w is what makes a uniform shear u = delta an exact solution,
 //     w delta = sum_links (delta_nb - delta)  -  v laplacian(d),
-// where the last term takes back what a curved surface alone adds. All of it moves smoothly as the body does.
+// where the last term takes back what a curved surface alone adds. In the middle of a thin solid d has a kink, which is no
+// curvature: there |grad d| falls below 1, and the term goes with it. All of it moves smoothly as the body does.
 uniform sampler2D distances, shares;
 
 layout(location = 0) out vec4 w;
@@ -43,6 +44,10 @@ void main() {
             side[way] = d_nb;
         }
         normal[axis] = 0.5 * (side[1] - side[0]);
+    }
+    for (int k = 0; k < 3; ++k) {
+        float slope = length(vec3(normal[0][k], normal[1][k], normal[2][k]));
+        curvature[k] *= max(smoothstep(0.3, 0.8, slope), smoothstep(0.0, kReach, d[k]));
     }
     w = vec4(max(stretch - v * curvature, 0.0) / max(delta, kLeastMiddle), 0.0);
     w.xyz *= vec3(greaterThan(v, vec3(0.0)));
