@@ -3,11 +3,12 @@
 // reads   ax, ay, az     RGBA32F  Faces4 of the FINE grid (fine_cells)
 // writes  ax, ay, az     RGBA32F  Faces4 of the coarse grid            at least 1e-3, so that coarse cells inside a solid
 //                                                                      carry a smooth pressure and prolongation needs no mask
-// fetches 28, THIN 56
+// fetches 28, THIN 84
 //
 // Variant THIN: a coarse link is as open as two fine ones are one after the other, the one at its middle and the one before:
-// so each fine face, and with it a thin plate wherever it lies, closes one coarse face. (With half of the one after as well, a
-// plate would wall in a coarse cell, and the cycles would diverge.)
+// so each fine face, and with it a thin plate wherever it lies, closes one coarse face. The one before counts less as the next
+// but one closes too, for then what lies between those two is solid and the rest of the coarse cell must keep its link.
+// A coarse cell of fluid that is walled in makes the cycles diverge.
 //
 // Fine faces beyond an odd edge of the grid do not exist and count as closed.
 uniform sampler2D ax, ay, az;
@@ -29,17 +30,19 @@ void column(sampler2D f, ivec3 c, out vec4 low, out vec4 high) {
 }
 
 #ifdef THIN
-vec4 one_after_the_other(vec4 before, vec4 a) {
+vec4 one_after_the_other(vec4 next_but_one, vec4 before, vec4 a) {
+    before = mix(vec4(1.0), before, clamp(next_but_one, 0.0, 1.0));
     return 2.0 / (1.0 / max(before, kFloor) + 1.0 / max(a, kFloor));
 }
 
 // The same of links that follow each other along e.
 void column(sampler2D f, ivec3 c, ivec3 e, out vec4 low, out vec4 high) {
-    vec4 low_before, high_before;
+    vec4 low_1, high_1, low_2, high_2;
     column(f, c, low, high);
-    column(f, max(c - e, 0), low_before, high_before);
-    low = one_after_the_other(low_before, low);
-    high = one_after_the_other(high_before, high);
+    column(f, max(c - e, 0), low_1, high_1);
+    column(f, max(c - 2 * e, 0), low_2, high_2);
+    low = one_after_the_other(low_2, low_1, low);
+    high = one_after_the_other(high_2, high_1, high);
 }
 #else
 void column(sampler2D f, ivec3 c, ivec3 e, out vec4 low, out vec4 high) {
@@ -74,8 +77,8 @@ void main() {
         column(az, f + d, l, h);
         vec4 link = vec4(l.xz, h.xz);
 #ifdef THIN
-        float below = at_clamped(az, FINE, ivec3((f + d).xy, max(f.z - 1, 0))).w;
-        link = one_after_the_other(vec4(f.z > 0 ? below : l.x, l.yw, h.y), link);
+        vec4 below = f.z > 0 ? at_clamped(az, FINE, ivec3((f + d).xy, f.z - 1)) : l.xxxx;
+        link = one_after_the_other(vec4(below.z, l.xz, h.x), vec4(below.w, l.yw, h.y), link);
 #endif
         out_az += exists(f.x + d.x, n.x) * exists(f.y + d.y, n.y) * 0.25 * link;
     }

@@ -45,6 +45,10 @@ DistanceGrid::DistanceGrid(const TriangleMesh& mesh, int nodes, double padding_m
         }
 }
 
+double DistanceGrid::depth_m() const {
+    return -spacing_m_ * static_cast<double>(*std::min_element(distances_.begin(), distances_.end()));
+}
+
 double DistanceGrid::at(const glm::dvec3& x_m) const {
     const glm::dvec3 s = (x_m - low_m_) / spacing_m_;
     const glm::dvec3 inside = glm::clamp(s, glm::dvec3(0.0), glm::dvec3(nodes_ - 1));

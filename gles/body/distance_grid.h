@@ -32,6 +32,7 @@ class DistanceGrid {
     glm::dvec3 mesh_low_m() const { return mesh_low_m_; }
     glm::dvec3 mesh_high_m() const { return mesh_high_m_; }
     double radius_m() const { return radius_m_; }  ///< of the ball around the origin that holds it
+    double depth_m() const;                        ///< of the node deepest inside
     const MassProperties& mass() const { return mass_; }
 
   private:

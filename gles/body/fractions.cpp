@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gles/body/bounds.h"
+#include "gles/body/distance_grid.h"
 
 namespace eddy::gles {
 namespace {
@@ -40,6 +41,15 @@ bool any_thin(const std::vector<BodySetup>& bodies, double cell_m) {
     });
 }
 
+/// The same, but a mesh, which may be thin anywhere, only if it is so everywhere.
+bool any_thin_whole(const std::vector<BodySetup>& bodies, double cell_m) {
+    return std::any_of(bodies.begin(), bodies.end(), [&](const BodySetup& body) {
+        const Mesh* mesh = std::get_if<Mesh>(&body.shape);
+        const double thickness = mesh ? 2.0 * mesh->distance->depth_m() : thickness_m(body.shape);
+        return !body.inside_out && thickness < kThinCells * cell_m;
+    });
+}
+
 Variant finest_variant(const std::vector<BodySetup>& bodies, double cell_m) {
     Variant v{.defines = {{"SUBCUBES", fmt::format("{}", subcubes(bodies))}},
               .declarations = shape_declarations(bodies)};
@@ -66,7 +76,8 @@ Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::
       volumes_(new_fractions(gpu, grids[0])),
       finest_(gpu, "fractions", "gles/body/fractions.frag", Faces4::layout(grids[0]),
               finest_variant(bodies, cell_m)),
-      sharpen_(gpu, "sharpen fractions", "gles/body/sharpen_fractions.frag", Faces4::layout(grids[0])) {
+      sharpen_(gpu, "sharpen fractions", "gles/body/sharpen_fractions.frag", Faces4::layout(grids[0])),
+      are_thin_(any_thin_whole(bodies, cell_m)) {
     for (const glm::ivec3& n : grids) levels_.push_back(new_fractions(gpu, n));
     for (std::size_t l = 0; l + 1 < grids.size(); ++l)
         coarsen_.emplace_back(gpu, fmt::format("coarsen fractions {}", l + 1),

@@ -27,6 +27,8 @@ class Fractions {
     void update(const BodyUniforms& bodies, const std::vector<Box>& boxes);
 
     const FaceFractions& level(std::size_t l) const { return levels_[l]; }
+    /// Whether a body is so thin that a coarse grid may hold it in another place than the finest does.
+    bool are_thin() const { return are_thin_; }
 
   private:
     void draw(const BodyUniforms& bodies, const Region& finest, const std::vector<Region>& coarse);
@@ -37,7 +39,7 @@ class Fractions {
     Pass finest_, sharpen_;
     std::vector<Pass> coarsen_;  ///< [l] makes level l + 1 from level l
     std::vector<Box> before_;
-    bool drawn_ = false;
+    bool drawn_ = false, are_thin_;
 };
 
 }  // namespace eddy::gles

@@ -1,4 +1,4 @@
-// prolong.frag     phi += trilinear(phi_coarse)
+// prolong.frag     phi += SHARE trilinear(phi_coarse)          variant SHARE; else all of it
 //
 // reads   phi         RGBA32F  Cells4               [m/s]
 // reads   phi_coarse  RGBA32F  Cells4 of the COARSE grid
@@ -29,5 +29,8 @@ void main() {
     if (first + 3 > top) four.w = four.z;
     vec4 fine = vec4(mix(four.x, four.y, 0.75), mix(four.y, four.z, 0.25), mix(four.y, four.z, 0.75),
                      mix(four.z, four.w, 0.25));
+#ifdef SHARE
+    fine *= SHARE;
+#endif
     result = at(phi, TARGET, c) + fine;
 }
