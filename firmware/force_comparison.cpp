@@ -10,8 +10,9 @@ double square(const glm::dvec3& v) {
     return glm::dot(v, v);
 }
 
-double ratio(double squares, double force_squares) {
-    return force_squares > 0.0 ? std::sqrt(squares / force_squares) : 0.0;
+std::optional<double> ratio(double squares, double force_squares) {
+    if (force_squares == 0.0) return std::nullopt;
+    return std::sqrt(squares / force_squares);
 }
 
 }  // namespace
@@ -42,10 +43,10 @@ void ForceComparison::add(const std::vector<gles::Load>& loads,
     }
 }
 
-double ForceComparison::spread(std::size_t body) const {
+std::optional<double> ForceComparison::spread(std::size_t body) const {
     return ratio(sums_[body].spread, sums_[body].force);
 }
-double ForceComparison::transport(std::size_t body) const {
+std::optional<double> ForceComparison::transport(std::size_t body) const {
     return ratio(sums_[body].transport, sums_[body].force);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,11 @@ class ForceComparison {
 
     /// Of one step, body by body.
     void add(const std::vector<gles::Load>& loads, const std::vector<gles::ForceMethods>& methods);
-    /// Of one body: rms over the steps of the largest difference between two of the three, over the rms force; 0 if there was
-    /// never any force.
-    double spread(std::size_t body) const;
+    /// Of one body: rms over the steps of the largest difference between two of the three, over the rms force. None if there
+    /// was never any force, as on a body whose force is not measured.
+    std::optional<double> spread(std::size_t body) const;
     /// Rms of what transport made or lost, over the rms force.
-    double transport(std::size_t body) const;
+    std::optional<double> transport(std::size_t body) const;
 
   private:
     struct Sums {

@@ -63,9 +63,9 @@ std::string to_json(const Summary& s, const LoadedScene& loaded, const gles::Gpu
         j["bodies"].push_back({{"name", loaded.scene.bodies[i].name},
                                {"last_force_n", {load.force_n.x, load.force_n.y, load.force_n.z}},
                                {"last_torque_nm", {load.torque_nm.x, load.torque_nm.y, load.torque_nm.z}}});
-        if (!s.forces) continue;
-        j["bodies"].back()["force_methods"] = {{"spread_over_force", s.forces->spread(i)},
-                                               {"transport_over_force", s.forces->transport(i)}};
+        if (!s.forces || !s.forces->spread(i)) continue;
+        j["bodies"].back()["force_methods"] = {{"spread_over_force", *s.forces->spread(i)},
+                                               {"transport_over_force", *s.forces->transport(i)}};
     }
     if (s.last.diagnostics) {
         j["kinetic_energy_j"] = s.last.diagnostics->kinetic_energy_j;
@@ -181,8 +181,8 @@ int simulate(const SimulateOptions& options) {
         const glm::dvec3 f = summary.last.loads[i].force_n;
         fmt::print("force on {} at the end: ({:.4e}, {:.4e}, {:.4e}) N\n", scene.bodies[i].name, f.x, f.y,
                    f.z);
-        if (summary.forces)
-            fmt::print("measured three ways it agrees within {:.2g} of it\n", summary.forces->spread(i));
+        const std::optional<double> spread = summary.forces ? summary.forces->spread(i) : std::nullopt;
+        if (spread) fmt::print("measured three ways it agrees within {:.2g} of it\n", *spread);
     }
     if (!options.out.empty()) {
         const std::filesystem::path out(options.out);

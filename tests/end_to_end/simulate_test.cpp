@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -235,6 +236,39 @@ force_methods = true
         EXPECT_LT(spread, 1e-4);
         EXPECT_GE(body.at("force_methods").at("transport_over_force").get<double>(), 0.0);
     }
+}
+
+TEST(Simulate, ComparesNoForcesOnABodyWhoseForceIsNotMeasured) {
+    const ScratchFolder folder;
+    const std::string out = folder / "out";
+    const std::string scene = folder.write("two.toml", R"(
+[tank]
+size_m = [0.16, 0.16, 0.16]
+cells = [16, 16, 16]
+[[body]]
+name = "felt"
+shape = "sphere"
+radius_m = 0.03
+centre_m = [0.05, 0.06, 0.08]
+motion = "prescribed"
+acceleration_m_s2 = [1, 0, 0]
+[[body]]
+name = "unfelt"
+shape = "box"
+size_m = [0.04, 0.04, 0.04]
+centre_m = [0.11, 0.1, 0.08]
+force = false
+torque = false
+[outputs]
+force_methods = true
+)");
+    const Ended ended = eddy({"simulate", scene, "--steps", "2", "--out", out});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const nlohmann::json bodies = nlohmann::json::parse(read_all(out + "/summary.json")).at("bodies");
+    EXPECT_TRUE(bodies.at(0).contains("force_methods"));
+    EXPECT_FALSE(bodies.at(1).contains("force_methods"));
+    EXPECT_THAT(ended.out, testing::ContainsRegex("on felt at the end.*\nmeasured three ways"));
+    EXPECT_THAT(ended.out, testing::Not(testing::ContainsRegex("on unfelt at the end.*\nmeasured three ways")));
 }
 
 TEST(Simulate, ReplacesAnEarlierResult) {

@@ -6,14 +6,19 @@ namespace eddy {
 namespace {
 
 TEST(ForceComparison, SpreadIsTheLargestDifferenceOverTheForceInTheMeanOfSquares) {
-    ForceComparison comparison(2);
-    // 3 and 4 N on the first body, 1 N apart and then the same; nothing ever on the second.
-    comparison.add({{.force_n = {3.0, 0.0, 0.0}}, {}},
-                   {{{3.5, 0.0, 0.0}, {2.5, 0.0, 0.0}, {0.0, 0.0, 2.0}}, {}});
-    comparison.add({{.force_n = {0.0, 4.0, 0.0}}, {}}, {{{0.0, 4.0, 0.0}, {0.0, 4.0, 0.0}, {}}, {}});
-    EXPECT_DOUBLE_EQ(comparison.spread(0), 1.0 / 5.0);
-    EXPECT_DOUBLE_EQ(comparison.transport(0), 2.0 / 5.0);
-    EXPECT_EQ(comparison.spread(1), 0.0);
+    ForceComparison comparison(1);
+    // 3 and 4 N on the first body, 1 N apart and then the same.
+    comparison.add({{.force_n = {3.0, 0.0, 0.0}}}, {{{3.5, 0.0, 0.0}, {2.5, 0.0, 0.0}, {0.0, 0.0, 2.0}}});
+    comparison.add({{.force_n = {0.0, 4.0, 0.0}}}, {{{0.0, 4.0, 0.0}, {0.0, 4.0, 0.0}, {}}});
+    EXPECT_DOUBLE_EQ(comparison.spread(0).value(), 1.0 / 5.0);
+    EXPECT_DOUBLE_EQ(comparison.transport(0).value(), 2.0 / 5.0);
+}
+
+TEST(ForceComparison, SaysNothingOfABodyWhoseForceIsNotMeasured) {
+    ForceComparison comparison(1);
+    comparison.add({{}}, {{{3.5, 0.0, 0.0}, {2.5, 0.0, 0.0}, {0.0, 0.0, 2.0}}});
+    EXPECT_FALSE(comparison.spread(0));
+    EXPECT_FALSE(comparison.transport(0));
 }
 
 TEST(ForceComparison, HasAValueForEachColumn) {
