@@ -33,6 +33,8 @@ struct Quantity {
     Error error = Error::Absolute;
     std::vector<Limit> limits = {};          ///< coarsest first; none: shown, not judged
     std::optional<double> least_order = {};  ///< of convergence between the two finest grids
+    bool estimates_error =
+        false;  ///< of the quantity before it; not judged: counted is how often it covers it
 };
 
 /// One page of the textbook: a scene, how it is refined, and what comes out of it.
@@ -69,5 +71,6 @@ std::vector<Case> added_mass_cases();     // B2
 std::vector<Case> creeping_flow_cases();  // B3, B4
 std::vector<Case> sphere_drag_cases();    // B6
 std::vector<Case> ripple_cases();         // B8.7
+std::vector<Case> three_ways_cases();     // F1
 
 }  // namespace eddy::accuracy

@@ -27,6 +27,7 @@ class Run {
     double dt_s() const { return dt_s_; }
     long steps() const { return steps_; }  ///< of the whole run
     FaceVelocity velocity() const { return FaceVelocity(*fluid_); }
+    const gles::Fluid& fluid() const { return *fluid_; }
     const gles::FluidSetup& setup() const { return fluid_->setup(); }
 
   private:

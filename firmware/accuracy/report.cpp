@@ -34,8 +34,9 @@ std::string limit_text(const Quantity& quantity, const Reading& reading) {
     return text;
 }
 
-const char* word(Verdict verdict) {
-    switch (verdict) {
+const char* word(const Reading& reading) {
+    if (reading.covers) return *reading.covers ? "covers" : "short";
+    switch (reading.verdict) {
         case Verdict::Unjudged:
             return "";
         case Verdict::Met:
@@ -54,7 +55,7 @@ std::string order_text(const Reading& reading) {
 std::string reading_text(const Quantity& quantity, const Reading& reading, std::size_t name_width) {
     return fmt::format("{:<{}}  {:>11.5g}  {:>10.5g}  {:>9}  {:>5}  {:<8} {}", quantity.name, name_width,
                        reading.measured, quantity.exact, error_text(quantity, reading.error),
-                       order_text(reading), word(reading.verdict), limit_text(quantity, reading));
+                       order_text(reading), word(reading), limit_text(quantity, reading));
 }
 
 std::size_t widest_name(const Case& one) {
@@ -92,9 +93,11 @@ std::string extrapolated(const Study& study) {
 }  // namespace
 
 std::string list_of(std::span<const Case> cases) {
-    std::string text = fmt::format("{:<14} {:<12} {:<16} {}\n", "case", "cells", "with --full", "");
+    std::size_t width = 0;
+    for (const Case& one : cases) width = std::max(width, one.name.size());
+    std::string text = fmt::format("{:<{}} {:<12} {}\n", "case", width, "cells", "with --full");
     for (const Case& one : cases)
-        text += fmt::format("{:<14} {:<12} {:<16} {}\n", one.name, grids_text(one.quick),
+        text += fmt::format("{:<{}} {:<12} {:<16} {}\n", one.name, width, grids_text(one.quick),
                             grids_text(one.full), one.title);
     return text;
 }
@@ -123,12 +126,15 @@ std::string table_of(const Study& study) {
 }
 
 std::string summary_of(std::span<const Study> studies) {
-    std::size_t width = 8;
-    for (const Study& study : studies) width = std::max(width, widest_name(*study.of));
+    std::size_t width = 8, case_width = 8;
+    for (const Study& study : studies) {
+        width = std::max(width, widest_name(*study.of));
+        case_width = std::max(case_width, study.of->name.size());
+    }
     std::string text =
-        fmt::format("\n{:<14}{:<12}{:>9}  {:<{}}  {:>11}  {:>10}  {:>9}  {:>5}\n", "summary", "finest grid",
-                    "total s", "quantity", width, "measured", "exact", "error", "order");
-    int judged = 0, met = 0;
+        fmt::format("\n{:<{}}  {:<12}{:>9}  {:<{}}  {:>11}  {:>10}  {:>9}  {:>5}\n", "summary", case_width,
+                    "finest grid", "total s", "quantity", width, "measured", "exact", "error", "order");
+    int judged = 0, met = 0, estimates = 0, covering = 0;
     double total_s = 0.0;
     for (const Study& study : studies) {
         double seconds = 0.0;
@@ -137,17 +143,21 @@ std::string summary_of(std::span<const Study> studies) {
             for (const Reading& reading : row.readings) {
                 judged += reading.verdict != Verdict::Unjudged;
                 met += reading.verdict == Verdict::Met;
+                estimates += reading.covers.has_value();
+                covering += reading.covers.value_or(false);
             }
         }
         total_s += seconds;
         const Row& finest = study.rows.back();
         for (std::size_t q = 0; q < finest.readings.size(); ++q) {
-            const std::string head =
-                q == 0 ? fmt::format("{:<14}{:<12}{:>9.1f}  ", study.of->name, grid_text(finest), seconds)
-                       : std::string(37, ' ');
+            const std::string head = q == 0 ? fmt::format("{:<{}}  {:<12}{:>9.1f}  ", study.of->name,
+                                                          case_width, grid_text(finest), seconds)
+                                            : std::string(case_width + 25, ' ');
             text += trimmed(head + reading_text(study.of->quantities[q], finest.readings[q], width));
         }
     }
+    if (estimates > 0)
+        text += fmt::format("{} of {} estimates cover the error they are of\n", covering, estimates);
     return text + fmt::format("{} of {} limits met, in {:.0f} s\n", met, judged, total_s);
 }
 
@@ -166,11 +176,11 @@ std::string csv_of(const Study& study) {
         for (std::size_t q = 0; q < row.readings.size(); ++q) {
             const Quantity& quantity = study.of->quantities[q];
             const Reading& r = row.readings[q];
-            text += fmt::format("{},{},{},{},{:.9g},{},{:.4g},{:.4g},{},{:.9g},{:.9g},{:.6g},{},{},{},{}\n",
-                                study.of->name, row.cells.x, row.cells.y, row.cells.z, row.dt_s, row.steps,
-                                row.step_ms, row.total_s, in_quotes(quantity.name), r.measured,
-                                quantity.exact, r.error, optional(r.order), optional(r.limit),
-                                optional(r.least_order), word(r.verdict));
+            text +=
+                fmt::format("{},{},{},{},{:.9g},{},{:.4g},{:.4g},{},{:.9g},{:.9g},{:.6g},{},{},{},{}\n",
+                            study.of->name, row.cells.x, row.cells.y, row.cells.z, row.dt_s, row.steps,
+                            row.step_ms, row.total_s, in_quotes(quantity.name), r.measured, quantity.exact,
+                            r.error, optional(r.order), optional(r.limit), optional(r.least_order), word(r));
         }
     return text;
 }

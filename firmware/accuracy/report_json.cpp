@@ -17,6 +17,7 @@ nlohmann::ordered_json json_of(const Quantity& quantity, const Reading& reading)
     if (reading.order) j["order"] = *reading.order;
     if (reading.limit) j["limit"] = *reading.limit;
     if (reading.least_order) j["least_order"] = *reading.least_order;
+    if (reading.covers) j["covers_error"] = *reading.covers;
     if (reading.verdict != Verdict::Unjudged) j["met"] = reading.verdict == Verdict::Met;
     return j;
 }

@@ -71,6 +71,10 @@ void judge(const Case& one, std::vector<Row>& rows) {
             const glm::ivec3& n = rows[r].cells;
             Reading& reading = rows[r].readings[q];
             reading.error = error_of(quantity, reading.measured);
+            if (quantity.estimates_error) {
+                reading.covers = reading.measured >= rows[r].readings.at(q - 1).error;
+                continue;
+            }
             reading.limit = limit_on(quantity, std::max({n.x, n.y, n.z}));
             if (r > 0)
                 reading.order = observed_order(rows[r - 1].readings[q].error, reading.error,

@@ -20,6 +20,7 @@ struct Reading {
     std::optional<double> limit = {};  ///< of the error
     std::optional<double> least_order = {};
     Verdict verdict = Verdict::Unjudged;
+    std::optional<bool> covers = {};  ///< an estimate: whether it is as large as the error it is of
 };
 
 /// A case on a grid.

@@ -22,6 +22,7 @@ TEST(Cases, HaveNamesOfTheirOwnAndSayWhatIsExactAndWhoSaysSo) {
         for (const Quantity& quantity : one.quantities) {
             EXPECT_FALSE(quantity.name.empty()) << one.name;
             EXPECT_FALSE(quantity.source.empty()) << one.name << ": " << quantity.name;
+            EXPECT_TRUE(!quantity.estimates_error || &quantity != &one.quantities.front()) << one.name;
             EXPECT_TRUE(quantity.error == Quantity::Error::Absolute || quantity.exact != 0.0) << one.name;
         }
     }

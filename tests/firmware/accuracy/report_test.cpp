@@ -61,6 +61,22 @@ TEST(Report, SummaryCountsTheLimitsThatWereMet) {
     EXPECT_TRUE(missed(studies[1]));
 }
 
+TEST(Report, SummaryCountsTheEstimatesThatCoverTheError) {
+    Case guessed = kCase;
+    guessed.quantities.push_back({.name = "guess", .source = "a hunch", .estimates_error = true});
+    Study study = drop({2.4, 2.1});  // 20 % and 5 % off
+    study.of = &guessed;
+    for (Row& row : study.rows) row.readings.push_back({.measured = 0.1});
+    judge(guessed, study.rows);
+    EXPECT_THAT(table_of(study), testing::ContainsRegex("guess .* 0.1 .* short\n(.*\n)*.*guess .* covers\n"));
+    EXPECT_THAT(summary_of(std::span(&study, 1)),
+                HasSubstr("1 of 2 estimates cover the error they are of\n"));
+    EXPECT_THAT(csv_of(study), HasSubstr(",covers\n"));
+    const nlohmann::json j = nlohmann::json::parse(json_of(std::span(&study, 1), {}));
+    EXPECT_EQ(j.at("cases").at(0).at("grids").at(1).at("quantities").at(1).at("covers_error"), true);
+    EXPECT_THAT(summary_of(std::vector{drop({2.4})}), Not(HasSubstr("estimates")));
+}
+
 TEST(Report, CsvHasAFieldForEachColumn) {
     const auto commas = [](const std::string& text) { return std::count(text.begin(), text.end(), ','); };
     const std::string line = csv_of(drop({2.4}));

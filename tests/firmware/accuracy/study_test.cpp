@@ -53,6 +53,21 @@ TEST(Study, JudgesTheOrderOnTheFinestGridOnly) {
     EXPECT_EQ(judged(quantity, 3.02, 3.01)[1].readings[0].verdict, Verdict::Missed);
 }
 
+TEST(Study, SaysOfAnEstimateWhetherItCoversTheErrorBeforeIt) {
+    // pi is 10 % and 1 % off.
+    for (const auto& [estimate, covers] : {std::pair(0.011, true), std::pair(0.009, false)}) {
+        std::vector<Row> two = rows(3.3, 3.03);
+        two[0].readings.push_back({.measured = 0.0});
+        two[1].readings.push_back({.measured = estimate});
+        judge({.quantities = {kPi, {.name = "guess", .estimates_error = true}}}, two);
+        EXPECT_EQ(two[0].readings[1].covers, false);
+        EXPECT_EQ(two[1].readings[1].covers, covers);
+        EXPECT_EQ(two[1].readings[1].verdict, Verdict::Unjudged);
+        EXPECT_FALSE(two[1].readings[1].order);
+        EXPECT_FALSE(two[1].readings[0].covers);
+    }
+}
+
 TEST(Study, TakesAWholeNumberOfStepsNearTheRule) {
     // B2-box: 4 steps on 60 cells.
     Case one = *cases_named("B2-box").front();
