@@ -63,6 +63,7 @@ std::vector<Case> rest_cases();           // A7
 std::vector<Case> internal_wave_cases();  // A8
 std::vector<Case> cavity_cases();         // A11
 std::vector<Case> viscous_flow_cases();   // A12
+std::vector<Case> deformation_cases();    // A15
 std::vector<Case> smoke_mass_cases();     // A16
 std::vector<Case> inflow_cases();         // A17
 std::vector<Case> confinement_cases();    // A18
