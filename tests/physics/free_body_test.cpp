@@ -21,20 +21,19 @@ FluidSetup well(const Shape& shape, double density, double viscosity = 0.0, int 
 }
 
 TEST_F(FreeBody, SetsOffWithItsWeightLessBuoyancyOverItsMassAndAddedMass) {
-    // C_m in the middle of a cubic tank with slip walls, by radius / edge (method of fundamental solutions).
-    constexpr double kAddedMass[][2] = {{0.15, 0.52493}, {0.20, 0.56047}};
-    for (const auto& [a_over_l, c] : kAddedMass)
-        for (const double ratio : {0.01, 0.1, 2.0}) {
-            const std::unique_ptr<Fluid> fluid =
-                make_fluid(gpu, well(Sphere{32.0 * a_over_l}, ratio, 0.0, 32));
-            const double dt = 0.05;
-            fluid->step(dt, {{.centre_m = glm::dvec3(16.0)}}, false);
-            const glm::dvec3 acceleration = fluid->bodies()[0].velocity_m_s / dt;
-            const double exact = -(ratio - 1.0) / (ratio + c);
-            record(fmt::format("a_{}_{}", a_over_l, ratio).c_str(), acceleration.y / exact);
-            EXPECT_NEAR(acceleration.y, exact, 0.03 * std::abs(exact));
-            EXPECT_LT(std::abs(acceleration.x) + std::abs(acceleration.z), 1e-3 * std::abs(exact));
-        }
+    // C_m in the middle of a cubic tank with slip walls, radius / edge = 0.15 (method of fundamental solutions); 0.2 is
+    // validation case B10.
+    constexpr double kAddedMass = 0.52493;
+    for (const double ratio : {0.01, 0.1, 2.0}) {
+        const std::unique_ptr<Fluid> fluid = make_fluid(gpu, well(Sphere{4.8}, ratio, 0.0, 32));
+        const double dt = 0.05;
+        fluid->step(dt, {{.centre_m = glm::dvec3(16.0)}}, false);
+        const glm::dvec3 acceleration = fluid->bodies()[0].velocity_m_s / dt;
+        const double exact = -(ratio - 1.0) / (ratio + kAddedMass);
+        record(fmt::format("a_{}", ratio).c_str(), acceleration.y / exact);
+        EXPECT_NEAR(acceleration.y, exact, 0.03 * std::abs(exact));
+        EXPECT_LT(std::abs(acceleration.x) + std::abs(acceleration.z), 1e-3 * std::abs(exact));
+    }
 }
 
 TEST_F(FreeBody, ChangesItsMomentumByTheForceOfTheFluidAndItsWeight) {
