@@ -30,11 +30,21 @@ Case at_rest(const std::string& name, const std::string& title, std::vector<std:
 }  // namespace
 
 std::vector<Case> rest_cases() {
-    return {at_rest("A7-inviscid", "water with a turned box in it stays at rest, 50 steps", {}),
-            at_rest("A7-viscous", "the same, a viscous fluid that sticks to walls and box",
-                    {"fluid.viscosity_pa_s=1.0", "tank.walls=\"no_slip\""}),
-            at_rest("A7-layered", "the same, twice as heavy at the bottom as at the top",
-                    {"smoke.weight=1.0", "smoke.initial=\"1 - y / 0.17\""})};
+    std::vector<Case> cases{at_rest("A7-inviscid", "water with a turned box in it stays at rest", {}),
+                            at_rest("A7-viscous", "the same in a viscous fluid that sticks to walls and box",
+                                    {"fluid.viscosity_pa_s=1.0", "tank.walls=\"no_slip\""}),
+                            at_rest("A7-layered", "the same, twice as heavy at the bottom as at the top",
+                                    {"smoke.weight=1.0", "smoke.initial=\"1 - y / 0.17\""})};
+    const std::vector<Case> short_ones = cases;
+    for (Case one : short_ones) {
+        one.name.insert(2, "-long");
+        one.title += ": 1000 steps";
+        one.set.emplace_back("outputs.duration_s=10");
+        one.quick.clear();
+        one.full = {22};
+        cases.push_back(one);
+    }
+    return cases;
 }
 
 }  // namespace eddy::accuracy
