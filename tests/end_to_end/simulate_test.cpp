@@ -268,7 +268,8 @@ force_methods = true
     EXPECT_TRUE(bodies.at(0).contains("force_methods"));
     EXPECT_FALSE(bodies.at(1).contains("force_methods"));
     EXPECT_THAT(ended.out, testing::ContainsRegex("on felt at the end.*\nmeasured three ways"));
-    EXPECT_THAT(ended.out, testing::Not(testing::ContainsRegex("on unfelt at the end.*\nmeasured three ways")));
+    EXPECT_THAT(ended.out,
+                testing::Not(testing::ContainsRegex("on unfelt at the end.*\nmeasured three ways")));
 }
 
 TEST(Simulate, ReplacesAnEarlierResult) {
