@@ -22,7 +22,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
-std::string plan_of(gles::Gpu& gpu, const gles::FluidSetup& setup, const BodyMotions& motions, double dt_s) {
+std::string plan_of(gles::Gpu& gpu, const gles::FluidSetup& setup, const BodySchedule& motions, double dt_s) {
     const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, setup);
     std::vector<gles::PassRecord> records;
     for (int n = 1; n <= 3; ++n) {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "config/scene.h"
-#include "firmware/body_motion.h"
+#include "firmware/body_schedule.h"
 #include "firmware/haptic/exchange.h"
 #include "gles/fluid/fluid.h"
 
@@ -42,7 +42,7 @@ class Show {
   private:
     Scene scene_;
     HapticExchange& exchange_;
-    BodyMotions motions_;
+    BodySchedule motions_;
     std::unique_ptr<gles::Fluid> fluid_;
     std::vector<gles::BodyState> states_;
     double time_s_ = 0.0;  // of the fluid; falls behind the clock when steps are too slow and dt is capped

@@ -4,7 +4,7 @@
 
 #include "config/scene.h"
 #include "firmware/accuracy/face_velocity.h"
-#include "firmware/body_motion.h"
+#include "firmware/body_schedule.h"
 #include "firmware/progress.h"
 #include "gles/gpu.h"
 
@@ -32,7 +32,7 @@ class Run {
 
   private:
     std::unique_ptr<gles::Fluid> fluid_;
-    BodyMotions motions_;
+    BodySchedule motions_;
     double dt_s_;
     long steps_;
     bool measures_ = false, diagnose_ = false;

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "firmware/body_motion.h"
+#include "firmware/body_schedule.h"
 #include "firmware/destination.h"
 #include "firmware/fluid_setup.h"
 #include "firmware/graphics.h"
@@ -37,7 +37,7 @@ struct Measurement {
 Measurement measure(gles::Gpu& gpu, Scene scene, int cells, SolverPreset preset, int repeats) {
     scene = with_longest_side(std::move(scene), cells);
     scene.solver.preset = preset;
-    const BodyMotions motions(scene);
+    const BodySchedule motions(scene);
     const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, fluid_setup(scene));
     const double dt = scene.solver.dt_s;
     Stopwatch stopwatch(gpu);
@@ -147,7 +147,7 @@ std::string to_json(const std::vector<Measurement>& all, const gles::Capabilitie
 int bench(const BenchOptions& options) {
     const Scene scene = load_scene(options.scene, options.set).scene;
     for (const int cells : options.grids) with_longest_side(scene, cells);
-    BodyMotions{scene};  // reads the paths
+    BodySchedule{scene};  // reads the paths
     if (!options.json.empty()) check_destination("--json", options.json);
     const std::unique_ptr<Graphics> graphics = open_headless();
     const gles::Capabilities& driver = graphics->gpu.capabilities();

@@ -3,7 +3,7 @@
 #include "config/document.h"
 #include "config/exhibit.h"
 #include "config/scene.h"
-#include "firmware/body_motion.h"
+#include "firmware/body_schedule.h"
 #include "firmware/fluid_setup.h"
 #include "firmware/verbs/verbs.h"
 
@@ -12,8 +12,8 @@ namespace eddy {
 int check_config(const std::string& file) {
     if (holds_a_scene(file)) {
         const Scene scene = load_scene(is_scene_file(file) ? file : "./" + file).scene;
-        BodyMotions{scene};  // reads the paths
-        fluid_setup(scene);  // reads the meshes and the flow at the start
+        BodySchedule{scene};  // reads the paths
+        fluid_setup(scene);   // reads the meshes and the flow at the start
         fmt::print("{}: a good scene\n", file);
     } else {
         load_exhibit_file(file);

@@ -381,7 +381,7 @@ int run(const RunOptions& options) {
             "any)",
             scene.solver.dt_s));
     require_no_screen(options.display.value_or(exhibit.display));
-    BodyMotions{scene};  // reads the paths
+    BodySchedule{scene};  // reads the paths
     std::unique_ptr<HapticDevice> device = make_device(options, options.haptics.value_or(exhibit.haptics));
     if (!options.record.empty()) prepare_folder("--record", options.record);
     if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);

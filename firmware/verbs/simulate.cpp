@@ -6,7 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "firmware/body_motion.h"
+#include "firmware/body_schedule.h"
 #include "firmware/destination.h"
 #include "firmware/fluid_setup.h"
 #include "firmware/force_comparison.h"
@@ -113,7 +113,7 @@ long steps_of(const SimulateOptions& options, const Scene& scene) {
 int simulate(const SimulateOptions& options) {
     const LoadedScene loaded = load_scene(options.scene, options.set);
     const Scene& scene = loaded.scene;
-    const BodyMotions motions(scene);
+    const BodySchedule motions(scene);
     gles::FluidSetup setup = fluid_setup(scene);
     setup.force_methods = scene.outputs.force_methods;
     const double dt = scene.solver.dt_s;

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "config/scene.h"
-#include "firmware/body_motion.h"
+#include "firmware/body_schedule.h"
 #include "firmware/fluid_setup.h"
 #include "gles/fluid/fluid.h"
 #include "tests/gles/gl_fixture.h"
@@ -84,7 +84,7 @@ Scene small_scene(std::string_view name, const std::string& preset) {
 
 /// Runs a scene for six steps and compares their plan with what GL was asked to do.
 void expect_plan_is_what_gl_does(const gles::Capabilities& capabilities, const Scene& scene) {
-    const BodyMotions motions(scene);
+    const BodySchedule motions(scene);
     gles::Gpu own(capabilities);
     g_asked = {};
     const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(own, fluid_setup(scene));

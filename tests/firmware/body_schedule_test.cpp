@@ -1,4 +1,4 @@
-#include "firmware/body_motion.h"
+#include "firmware/body_schedule.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Scene scene_with(const std::string& body) {
 }
 
 gles::BodyState at(const Scene& scene, double t) {
-    return BodyMotions(scene).at(t, kDt).at(0);
+    return BodySchedule(scene).at(t, kDt).at(0);
 }
 
 void expect_near(const glm::dvec3& got, const glm::dvec3& wanted, double tolerance, double t) {
@@ -29,7 +29,7 @@ void expect_near(const glm::dvec3& got, const glm::dvec3& wanted, double toleran
 
 const glm::dvec3 kCentre(0.08, 0.07, 0.06);
 
-TEST(BodyMotions, PrescribedBodyFollowsTheClosedForm) {
+TEST(BodySchedule, PrescribedBodyFollowsTheClosedForm) {
     const Scene scene = scene_with(
         "motion = \"prescribed\"\nstart_s = 0.5\nvelocity_m_s = [0.1, 0.0, -0.2]\nacceleration_m_s2 = [0.0, "
         "0.3, 0.0]\n"
@@ -43,11 +43,11 @@ TEST(BodyMotions, PrescribedBodyFollowsTheClosedForm) {
     }
 }
 
-TEST(BodyMotions, VelocityTimesTheStepIsTheDisplacement) {
+TEST(BodySchedule, VelocityTimesTheStepIsTheDisplacement) {
     const Scene scene = scene_with(
         "motion = \"prescribed\"\nstart_s = 0.05\nvelocity_m_s = [0.1, 0.0, -0.2]\n"
         "oscillation = { amplitude_m = [0.02, 0.03, 0.01], frequency_hz = 3.0 }\n");
-    const BodyMotions motions(scene);
+    const BodySchedule motions(scene);
     glm::dvec3 before = motions.at(0.0, kDt).at(0).centre_m;
     for (int n = 1; n < 60; ++n) {
         const gles::BodyState state = motions.at(n * kDt, kDt).at(0);
@@ -56,7 +56,7 @@ TEST(BodyMotions, VelocityTimesTheStepIsTheDisplacement) {
     }
 }
 
-TEST(BodyMotions, VelocityIsTheDerivativeInTheMiddleOfTheStep) {
+TEST(BodySchedule, VelocityIsTheDerivativeInTheMiddleOfTheStep) {
     const Scene scene = scene_with(
         "motion = \"prescribed\"\noscillation = { amplitude_m = [0.02, 0.0, 0.0], frequency_hz = 1.0 }\n");
     const double omega = 2.0 * std::numbers::pi;
@@ -66,7 +66,7 @@ TEST(BodyMotions, VelocityIsTheDerivativeInTheMiddleOfTheStep) {
                     1.01 * kDt * kDt / 24.0 * 0.02 * omega * omega * omega);
 }
 
-TEST(BodyMotions, RestsUntilItsStart) {
+TEST(BodySchedule, RestsUntilItsStart) {
     const Scene scene = scene_with(
         "motion = \"prescribed\"\nstart_s = 1.0\nvelocity_m_s = [1.0, 0.0, 0.0]\n"
         "spin_rad_s = [0.0, 3.0, 0.0]\n");
@@ -76,7 +76,7 @@ TEST(BodyMotions, RestsUntilItsStart) {
     EXPECT_EQ(state.spin_rad_s, glm::dvec3(0.0));
 }
 
-TEST(BodyMotions, SpinsAboutItsAxis) {
+TEST(BodySchedule, SpinsAboutItsAxis) {
     const Scene scene = scene_with("motion = \"prescribed\"\nspin_rad_s = [0.0, 0.0, 2.0]\n");
     const gles::BodyState state = at(scene, 0.25 * std::numbers::pi);  // a quarter turn
     expect_near(state.spin_rad_s, {0.0, 0.0, 2.0}, 1e-9, 0.0);
@@ -84,25 +84,25 @@ TEST(BodyMotions, SpinsAboutItsAxis) {
     expect_near(state.orientation * glm::dvec3(1.0, 0.0, 0.0), {0.0, 1.0, 0.0}, 1e-12, 0.0);
 }
 
-TEST(BodyMotions, FixedBodyNeverMoves) {
+TEST(BodySchedule, FixedBodyNeverMoves) {
     const Scene scene = scene_with("motion = \"fixed\"\n");
     for (const double t : {0.0, 1.0, 1e6}) {
         EXPECT_EQ(at(scene, t).centre_m, kCentre);
         EXPECT_EQ(at(scene, t).velocity_m_s, glm::dvec3(0.0));
     }
-    EXPECT_FALSE(BodyMotions(scene).held());
+    EXPECT_FALSE(BodySchedule(scene).held());
 }
 
-TEST(BodyMotions, KnowsWhichBodyTheVisitorHolds) {
+TEST(BodySchedule, KnowsWhichBodyTheVisitorHolds) {
     const Scene scene = read_scene(
                             "[[body]]\nradius_m = 0.01\ncentre_m = [0.1, 0.1, 0.1]\n[[body]]\nradius_m = "
                             "0.01\nmotion = \"held\"\n",
                             "test.toml")
                             .scene;
-    EXPECT_EQ(BodyMotions(scene).held(), std::size_t{1});
+    EXPECT_EQ(BodySchedule(scene).held(), std::size_t{1});
 }
 
-TEST(BodyMotions, PathIsAddedToTheCentreAndHeldAtItsEnd) {
+TEST(BodySchedule, PathIsAddedToTheCentreAndHeldAtItsEnd) {
     const ScratchFolder folder;
     const std::string csv =
         folder.write("path.csv", "t_s,x_m,y_m,z_m\n0,0,0,0\n1,0.01,0,0.02\n2,0.02,0,0.04\n");
@@ -113,12 +113,12 @@ TEST(BodyMotions, PathIsAddedToTheCentreAndHeldAtItsEnd) {
     EXPECT_EQ(at(scene, 9.0).velocity_m_s, glm::dvec3(0.0));
 }
 
-TEST(BodyMotions, PathThatIsWrongIsNamedWithItsLine) {
+TEST(BodySchedule, PathThatIsWrongIsNamedWithItsLine) {
     const ScratchFolder folder;
     const std::string csv = folder.write("path.csv", "t_s,x_m,y_m,z_m\n0,0,0,0\n1,left,0,0\n");
     const Scene scene = scene_with("motion = \"prescribed\"\npath_csv = \"" + csv + "\"\n");
     try {
-        const BodyMotions motions(scene);
+        const BodySchedule motions(scene);
         FAIL() << "a path with a word for a number was taken";
     } catch (const InputError& e) {
         EXPECT_EQ(std::string(e.what()).rfind(csv + ":3:", 0), 0u) << e.what();
