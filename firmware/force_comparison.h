@@ -7,7 +7,7 @@
 
 namespace eddy {
 
-/// The force on the bodies measured three ways (gles/body/force_methods.h): as columns of series.csv, and how well the three
+/// The force on the bodies measured three ways (gles/fluid/force_methods.h): as columns of series.csv, and how well the three
 /// agreed over a whole run.
 class ForceComparison {
   public:

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "gles/body/rigid_body.h"
-#include "gles/body/traction.h"
 #include "gles/fluid/contacts.h"
 #include "gles/fluid/pressure.h"
+#include "gles/fluid/traction.h"
 #include "gles/linear_system.h"
 #include "gles/readback.h"
 
@@ -45,7 +45,7 @@ class Coupling {
         const Field<Cells4>& phi;  ///< for the guess
         const FaceFractions& a;
         const std::vector<Box>& boxes;
-        std::vector<BodyMotion> motions;             ///< empty in the first step
+        std::vector<Displacement> motions;           ///< empty in the first step
         std::optional<Traction::Friction> friction;  ///< if the fluid is viscous
         double dt_s;
     };

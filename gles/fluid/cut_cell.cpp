@@ -238,8 +238,8 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
     bodies_ = std::move(bodies);
 }
 
-void CutCellFluid::keep(ForceMethodsPass::Stage stage, const Field<Faces>& u) {
-    if (force_methods_) force_methods_->keep(stage, u);
+void CutCellFluid::keep(ForceMethodsPass::Which which, const Field<Faces>& u) {
+    if (force_methods_) force_methods_->keep(which, u);
 }
 
 Pressure::Work CutCellFluid::place(const std::vector<BodyState>& bodies) {
@@ -282,8 +282,8 @@ Reflection::Middle CutCellFluid::go_to_the_middle(const std::vector<BodyState>& 
     }
     {
         Gpu::Stage stage(gpu_, "pressure");
-        std::vector<BodyMotion> since = motions(bodies);
-        for (BodyMotion& body : since) body.moved *= 2.0f;  // since the middle of the last step
+        std::vector<Displacement> since = motions(bodies);
+        for (Displacement& body : since) body.moved *= 2.0f;  // since the middle of the last step
         phi_ = pressure_.solve(pressure_.follow(std::move(phi_), since), b, work);
     }
     {
@@ -359,8 +359,8 @@ void CutCellFluid::couple(std::vector<BodyState>& bodies) {
     if (viscosity_) increment_ = coupling_->add_to(std::move(increment_));
 }
 
-std::vector<BodyMotion> CutCellFluid::motions(const std::vector<BodyState>& bodies) const {
-    std::vector<BodyMotion> result;
+std::vector<Displacement> CutCellFluid::motions(const std::vector<BodyState>& bodies) const {
+    std::vector<Displacement> result;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const Ball ball = bounding_ball(setup_.bodies[i].shape);
         const auto middle = [&](const BodyState& state) {

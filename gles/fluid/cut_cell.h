@@ -1,16 +1,16 @@
 #pragma once
 #include <optional>
 
-#include "gles/body/force_methods.h"
 #include "gles/body/fractions.h"
-#include "gles/body/traction.h"
 #include "gles/fluid/coupling.h"
 #include "gles/fluid/diagnosis.h"
 #include "gles/fluid/fluid.h"
+#include "gles/fluid/force_methods.h"
 #include "gles/fluid/pressure.h"
 #include "gles/fluid/reflection.h"
 #include "gles/fluid/results.h"
 #include "gles/fluid/scalar.h"
+#include "gles/fluid/traction.h"
 #include "gles/fluid/viscous_term.h"
 #include "gles/fluid/walls.h"
 
@@ -49,7 +49,7 @@ class CutCellFluid final : public Fluid {
     Variant grid_variant(bool cut) const;
 
     std::vector<glm::vec3> velocity_at_start() const;
-    std::vector<BodyMotion> motions(const std::vector<BodyState>& bodies) const;
+    std::vector<Displacement> motions(const std::vector<BodyState>& bodies) const;
     Field<Faces> drive_sources(Field<Faces> u);
     Field<Faces> add_body_forces(const Field<Faces>& u, double time_s, double dt_s);
     /// Puts the bodies where they are; returns what the pressure has to do around them and the sources.
@@ -66,7 +66,7 @@ class CutCellFluid final : public Fluid {
     /// Gives the coupled bodies their velocities, and phi what those change in it.
     void couple(std::vector<BodyState>& bodies);
     /// A velocity on its way through the step, for whoever adds up forces from it.
-    void keep(ForceMethodsPass::Stage stage, const Field<Faces>& u);
+    void keep(ForceMethodsPass::Which which, const Field<Faces>& u);
     /// What friction is computed from, in a viscous fluid.
     std::optional<Traction::Friction> friction() const;
     bool is_viscous() const { return setup_.viscosity_pa_s > 0.0; }

@@ -13,7 +13,7 @@ namespace eddy::gles {
 std::vector<glm::ivec3> multigrid_levels(const glm::ivec3& n);
 
 /// Where a body is and how far it came since the last step, in cells.
-struct BodyMotion {
+struct Displacement {
     glm::vec3 centre, moved;
     float radius;  ///< of the sphere around the centre that holds it
 };
@@ -40,7 +40,7 @@ class Pressure {
 
     /// Moves phi along with the bodies, to serve as first guess for where they are now; `boxes` as for
     /// solve().
-    Field<Cells4> follow(Field<Cells4> phi, const std::vector<BodyMotion>& motions);
+    Field<Cells4> follow(Field<Cells4> phi, const std::vector<Displacement>& motions);
     struct Work {
         int cycles = 2;            ///< V-cycles
         float guess_scale = 1.0f;  ///< the first guess is this times phi, which grows with dt

@@ -163,7 +163,7 @@ struct FluidSetup {
     std::vector<SourceSetup> sources{};
     std::vector<BodySetup> bodies{};
     bool force_methods =
-        false;  ///< measure forces in two more ways (gles/body/force_methods.h); CutCell only
+        false;  ///< measure forces in two more ways (gles/fluid/force_methods.h); CutCell only
     SolverSetup solver;
 };
 
@@ -181,7 +181,7 @@ struct BodyState {
     glm::dvec3 spin_rad_s{0.0};
 };
 
-/// Force on a body by other ways than the sum of the stress over its surface (gles/body/force_methods.h), and the force that
+/// Force on a body by other ways than the sum of the stress over its surface (gles/fluid/force_methods.h), and the force that
 /// transport made or lost around it, for it does not conserve momentum.
 struct ForceMethods {
     glm::dvec3 box_n{0.0};

@@ -2,8 +2,8 @@
 
 #include <type_traits>
 
-#include "gles/body/traction.h"
 #include "gles/fluid/pressure.h"
+#include "gles/fluid/traction.h"
 #include "tests/gles/gl_fixture.h"
 
 namespace eddy::gles {

@@ -32,10 +32,11 @@ class ForceMethodsPass {
   public:
     ForceMethodsPass(Gpu& gpu, const FluidSetup& setup);
 
-    using Stage = std::vector<glm::vec3> StepVelocities::*;
-    /// Keeps a stage of this step.
-    void keep(Stage stage, const Field<Faces>& u);
-    /// When all stages are kept: the forces. `time_s`: at the end of the step.
+    /// One of StepVelocities.
+    using Which = std::vector<glm::vec3> StepVelocities::*;
+    /// Keeps one of this step.
+    void keep(Which which, const Field<Faces>& u);
+    /// When all of them are kept: the forces. `time_s`: at the end of the step.
     void add_up(const Field<Cells4>& phi, const FaceFractions& a, const BodyUniforms& uniforms,
                 const std::vector<Box>& boxes, double time_s, double dt_s);
     /// Of the last step, one for each body.

@@ -1,4 +1,4 @@
-#include "gles/body/traction.h"
+#include "gles/fluid/traction.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ Traction::Traction(Gpu& gpu, const FluidSetup& setup, int target_width) : gpu_(&
         const AtlasLayout layout{{columns.x, columns.y, 1}, 1};
         bodies_.push_back(
             {static_cast<int>(i), columns,
-             Pass(gpu, fmt::format("traction {}", i), "gles/body/traction.frag", layout, variant),
+             Pass(gpu, fmt::format("traction {}", i), "gles/fluid/traction.frag", layout, variant),
              Reduce(gpu, fmt::format("sum traction {}", i), columns, {target_width, 1})});
     }
 }

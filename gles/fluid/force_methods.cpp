@@ -1,4 +1,4 @@
-#include "gles/body/force_methods.h"
+#include "gles/fluid/force_methods.h"
 
 #include <algorithm>
 
@@ -181,8 +181,8 @@ ForceMethodsPass::ForceMethodsPass(Gpu& gpu, const FluidSetup& setup)
               {.declarations = shape_declarations(setup.bodies)}),
       owner_field_(gpu, setup.cells, Format::RGBA32F) {}
 
-void ForceMethodsPass::keep(Stage stage, const Field<Faces>& u) {
-    u_.*stage = unpack_vectors(u.texture().download(), u.layout());
+void ForceMethodsPass::keep(Which which, const Field<Faces>& u) {
+    u_.*which = unpack_vectors(u.texture().download(), u.layout());
 }
 
 void ForceMethodsPass::add_up(const Field<Cells4>& phi, const FaceFractions& a, const BodyUniforms& uniforms,
