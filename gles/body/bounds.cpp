@@ -116,6 +116,10 @@ Ball bounding_ball(const Shape& shape) {
     return {0.5 * (low + high), 0.5 * glm::length(high - low)};
 }
 
+glm::dvec3 middle_m(const Shape& shape, const BodyState& state) {
+    return state.centre_m + state.orientation * bounding_ball(shape).centre_m;
+}
+
 double thickness_m(const Shape& shape) {
     return std::visit(ThicknessOf{}, shape);
 }

@@ -18,6 +18,8 @@ struct Ball {
     double radius_m;
 };
 Ball bounding_ball(const Shape& shape);
+/// Where the middle of that ball is in the tank [m].
+glm::dvec3 middle_m(const Shape& shape, const BodyState& state);
 
 /// The least width of the solid, between parallel surfaces that are far apart from other ones [m]; 0 where it is not known.
 double thickness_m(const Shape& shape);

@@ -23,9 +23,10 @@ uniform float expansion;  // [1/K]
 #if defined(WEIGHT) || defined(LIFT)
 vec3 on_faces(sampler2D scalar, ivec3 c) {
     // The mean of the cells at either side.
-    return 0.5 * (at_clamped(scalar, CELL_CENTRES, c).x + vec3(at_clamped(scalar, CELL_CENTRES, c - ivec3(1, 0, 0)).x,
-                                                               at_clamped(scalar, CELL_CENTRES, c - ivec3(0, 1, 0)).x,
-                                                               at_clamped(scalar, CELL_CENTRES, c - ivec3(0, 0, 1)).x));
+    return 0.5 * (at_clamped(scalar, CELL_CENTRES, c).x +
+                  vec3(at_clamped(scalar, CELL_CENTRES, c - ivec3(1, 0, 0)).x,
+                       at_clamped(scalar, CELL_CENTRES, c - ivec3(0, 1, 0)).x,
+                       at_clamped(scalar, CELL_CENTRES, c - ivec3(0, 0, 1)).x));
 }
 #endif
 

@@ -159,7 +159,7 @@ void Coupling::draw_potentials(const std::vector<BodyState>& states, const Step&
     touched.insert(touched.end(), boxes_before_.begin(), boxes_before_.end());
     boxes_before_ = step.boxes;
     const Pressure::Work work{
-        .cycles = kCycles + (step.motions.empty() ? kColdCycles : 0), .cut = step.boxes, .rough = step.boxes};
+        .cycles = kCycles + (step.since.empty() ? kColdCycles : 0), .cut = step.boxes, .rough = step.boxes};
     for (Triple& triple : triples_) {
         const std::size_t body = bodies_[triple.body].index;
         for (std::size_t axis = 0; axis < triple.potentials.size(); ++axis) {
@@ -172,7 +172,7 @@ void Coupling::draw_potentials(const std::vector<BodyState>& states, const Step&
             inputs.insert(inputs.end(), uniforms_.inputs().begin(), uniforms_.inputs().end());
             flux_.draw(inputs, uniforms_.uniforms(), {&b_.texture()}, Region::packed(touched));
             Field<Cells4>& phi = triple.potentials[axis];
-            if (!step.motions.empty()) phi = pressure_.follow(std::move(phi), {step.motions[body]});
+            if (!step.since.empty()) phi = pressure_.follow(std::move(phi), {step.since[body]});
             phi = pressure_.solve(std::move(phi), b_, work);
         }
     }

@@ -45,7 +45,7 @@ class Coupling {
         const Field<Cells4>& phi;  ///< for the guess
         const FaceFractions& a;
         const std::vector<Box>& boxes;
-        std::vector<Displacement> motions;           ///< empty in the first step
+        std::vector<Displacement> since;             ///< the last step; empty in the first
         std::optional<Traction::Friction> friction;  ///< if the fluid is viscous
         double dt_s;
     };

@@ -1,12 +1,16 @@
 #pragma once
 #include <optional>
 
+#include "gles/body/displacement.h"
 #include "gles/body/fractions.h"
+#include "gles/fluid/body_forces.h"
 #include "gles/fluid/coupling.h"
 #include "gles/fluid/diagnosis.h"
 #include "gles/fluid/fluid.h"
 #include "gles/fluid/force_methods.h"
+#include "gles/fluid/jets.h"
 #include "gles/fluid/pressure.h"
+#include "gles/fluid/projection.h"
 #include "gles/fluid/reflection.h"
 #include "gles/fluid/results.h"
 #include "gles/fluid/scalar.h"
@@ -38,30 +42,17 @@ class CutCellFluid final : public Fluid {
     void set_velocity(const std::vector<glm::vec3>& u) override;
 
   private:
-    /// The three passes of a projection: the whole grid, the boxes of solids over it, the upper walls.
-    struct Projection {
-        Pass plain;
-        std::optional<Pass> cut;
-        Pass walls;
-    };
-    Projection make_projection();
-    /// What the passes between faces and cells are compiled with.
-    Variant grid_variant(bool cut) const;
-
-    std::vector<glm::vec3> velocity_at_start() const;
-    std::vector<Displacement> motions(const std::vector<BodyState>& bodies) const;
-    Field<Faces> drive_sources(Field<Faces> u);
-    Field<Faces> add_body_forces(const Field<Faces>& u, double time_s, double dt_s);
-    /// Puts the bodies where they are; returns what the pressure has to do around them and the sources.
-    Pressure::Work place(const std::vector<BodyState>& bodies);
-    /// The first half of a step at second order in time; leaves u_, phi_ and time_s_ there.
-    Reflection::Middle go_to_the_middle(const std::vector<BodyState>& bodies, float guess_scale);
-    /// What passes near solids read besides their own.
-    void add_solids(std::vector<Input>& inputs, std::vector<Uniform>& uniforms) const;
+    /// All of a step, which began at start_s, or one of its halves: leaves u_, phi_ and time_s_ at its end. Returns the
+    /// divergence before its projection.
+    Field<Cells4> advance(Part part, double start_s, std::vector<BodyState>& bodies);
+    /// Puts the bodies where they are; returns what the pressure has to do around them and the jets.
+    Pressure::Work place(const std::vector<BodyState>& bodies, float guess_scale);
+    /// How far the bodies came since they were where phi_ belongs.
+    std::vector<Displacement> since_last_pressure(Part part, const std::vector<BodyState>& bodies) const;
     /// The viscous step, with the last step's pressure in it.
     Field<Faces> diffuse(const Field<Faces>& u, const Pressure::Work& work);
     Field<Cells4> divergence(const Field<Faces>& u);
-    Field<Cells4> solve_pressure(const Field<Cells4>& b, const Pressure::Work& work);
+    Field<Cells4> solve_pressure(Part part, const Field<Cells4>& b, const Pressure::Work& work);
     Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale);
     /// Gives the coupled bodies their velocities, and phi what those change in it.
     void couple(std::vector<BodyState>& bodies);
@@ -75,24 +66,25 @@ class CutCellFluid final : public Fluid {
     Gpu& gpu_;
     Field<Faces> u_;           // velocity, project                    m/s       (nx+1, ny+1, nz+1)
     Field<Cells4> phi_;        // dt p / (rho h), Pressure             m/s       (nx, ny, nz)
-    Field<Cells4> increment_;  // of phi in a viscous step              m/s       (nx, ny, nz)
+    Field<Cells4> increment_;  // of phi, viscous step or second half  m/s       (nx, ny, nz)
     Field<Faces> diffused_;    // u**, diffuse: what friction comes from m/s     (nx+1, ny+1, nz+1)
+    Field<Faces> mirrored_;    // 2 u - u*, between the halves         m/s       (nx+1, ny+1, nz+1)
     std::vector<Box> boxes_;   // cells near each body, this step
     long step_ = 0;
     double time_s_ = 0.0;
     double dt_s_ = 0.0;
+    float guess_scale_ = 1.0f;  // dt over the last one
 
     // --- passes the scene called for
     Walls walls_;
     VelocityTransport advect_;
-    std::optional<Pass> drive_, vorticity_, confinement_, body_forces_;
+    Jets jets_;
+    std::optional<BodyForces> body_forces_;
     std::optional<Fractions> fractions_;
     std::optional<Scalar> smoke_, temperature_;  // with their fields: density [1], excess [K]
     BodyUniforms body_uniforms_;
-    Pass divergence_;
-    std::optional<Pass> divergence_cut_;
     Pressure pressure_;
-    Projection project_;
+    Projection projection_;
     std::optional<ViscousTerm> viscosity_;
     std::optional<Pass> add_pressure_;
     std::optional<Reflection> reflection_;

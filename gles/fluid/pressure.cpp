@@ -172,9 +172,9 @@ void Pressure::sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std
     cut.draw(inputs, {{"omega", kSmoother[1]}, {"scale", 1.0f}}, {&phi.texture()}, Region::packed(near));
 }
 
-Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<Displacement>& motions) {
+Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<Displacement>& since) {
     Field<Cells4> moved(*gpu_, levels_[0].cells, Format::RGBA32F);
-    for (const Displacement& body : motions) {
+    for (const Displacement& body : since) {
         if (glm::length(body.moved) < 1e-3f) continue;
         const float reach = 3.0f * body.radius + 2.0f;
         const Box box{glm::ivec3(glm::floor(body.centre - reach)),

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "gles/body/displacement.h"
 #include "gles/body/fractions.h"
 #include "gles/fluid/least_residual.h"
 #include "gles/fluid/walls.h"
@@ -11,12 +12,6 @@ namespace eddy::gles {
 /// The grids of the multigrid solver for n cells: n, then halves (rounded up, so that any n works: the
 /// missing cells of an odd grid are closed) down to at most 4 cells an axis.
 std::vector<glm::ivec3> multigrid_levels(const glm::ivec3& n);
-
-/// Where a body is and how far it came since the last step, in cells.
-struct Displacement {
-    glm::vec3 centre, moved;
-    float radius;  ///< of the sphere around the centre that holds it
-};
 
 /// Solves   sum_f a_f (phi_nb - phi) = b   in every cell, where phi = dt p / (rho h) [m/s].
 ///
@@ -40,7 +35,7 @@ class Pressure {
 
     /// Moves phi along with the bodies, to serve as first guess for where they are now; `boxes` as for
     /// solve().
-    Field<Cells4> follow(Field<Cells4> phi, const std::vector<Displacement>& motions);
+    Field<Cells4> follow(Field<Cells4> phi, const std::vector<Displacement>& since);
     struct Work {
         int cycles = 2;            ///< V-cycles
         float guess_scale = 1.0f;  ///< the first guess is this times phi, which grows with dt

@@ -5,6 +5,9 @@
 
 namespace eddy::gles {
 
+/// Of a step.
+enum class Part { Whole, FirstHalf, SecondHalf };
+
 /// Second order in time: advection-reflection, Zehnder, Narain, Thomaszewski 2018, ACM Trans. Graph. 37, 85.
 ///
 /// A step is cut in two. The first half ends with a projection, u = u* - grad phi_1, and the second starts from
@@ -15,16 +18,11 @@ class Reflection {
   public:
     Reflection(Gpu& gpu, const FluidSetup& setup);
 
-    /// What the first half of a step leaves to the second.
-    struct Middle {
-        Field<Faces> mirrored;     ///< 2 u - u*
-        Field<Cells4> divergence;  ///< of u*
-    };
+    /// 2 u - u*
     Field<Faces> mirror(const Field<Faces>& u, const Field<Faces>& u_star);
     Field<Cells4> add(const Field<Cells4>& first, const Field<Cells4>& second);
-    /// Where the loads of the halves go, rows as Results has them; add_loads() puts their sum into `row`.
-    const Texture& first_loads() const { return *first_loads_; }
-    const Texture& second_loads() const { return *second_loads_; }
+    /// Where the loads of a half go, a row as Results has it; add_loads() puts their sum into `row`.
+    const Texture& loads(Part half) const { return half == Part::FirstHalf ? *first_loads_ : *second_loads_; }
     void add_loads(const Texture& row);
 
   private:

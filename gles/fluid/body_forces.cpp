@@ -1,0 +1,93 @@
+#include "gles/fluid/body_forces.h"
+
+#include <fmt/format.h>
+
+#include "gles/fluid/walls.h"
+
+namespace eddy::gles {
+namespace {
+
+bool has_weight(const FluidSetup& setup) {
+    return setup.smoke && setup.smoke->weight != 0.0;
+}
+
+bool is_lifted(const FluidSetup& setup) {
+    return setup.temperature && setup.temperature->expansion_1_k != 0.0;
+}
+
+bool is_confined(const FluidSetup& setup) {
+    return setup.confinement_1_s > 0.0;
+}
+
+/// The forces this scene has.
+Variant force_variant(const FluidSetup& setup) {
+    Variant v;
+    v.layouts.emplace_back("CELL_CENTRES", Cells::layout(setup.cells));
+    if (has_weight(setup)) v.defines.emplace_back("WEIGHT", "");
+    if (is_lifted(setup)) v.defines.emplace_back("LIFT", "");
+    if (is_confined(setup)) v.defines.emplace_back("CONFINEMENT", "");
+    if (setup.acceleration_m_s2) {
+        const auto& f = setup.acceleration_m_s2->glsl;
+        v.defines.emplace_back("FORCING", "");
+        v.declarations =
+            setup.formula_helpers + fmt::format(
+                                        "uniform float time;  // [s]\nvec3 forcing(vec3 cells) {{\n{}    "
+                                        "return vec3({}, {}, {});\n}}\n",
+                                        formula_variables(setup.cell_m, "time"), f[0], f[1], f[2]);
+    }
+    return v;
+}
+
+}  // namespace
+
+bool BodyForces::needed(const FluidSetup& setup) {
+    return setup.gravity_m_s2 != glm::dvec3(0.0) || setup.acceleration_m_s2 || is_confined(setup);
+}
+
+BodyForces::BodyForces(Gpu& gpu, const FluidSetup& setup)
+    : gpu_(&gpu),
+      setup_(&setup),
+      add_(gpu, "body forces", "gles/fluid/body_forces.frag", Faces::layout(setup.cells),
+           force_variant(setup)) {
+    if (!is_confined(setup)) return;
+    const AtlasLayout cells = Cells::layout(setup.cells);
+    vorticity_.emplace(gpu, "vorticity", "gles/fluid/vorticity.frag", cells,
+                       Variant{.layouts = {{"FACES", Faces::layout(setup.cells)}},
+                               .defines = {{"CELLS", glsl(setup.cells)}}});
+    confinement_.emplace(gpu, "confinement", "gles/fluid/confinement.frag", cells);
+}
+
+Field<Faces> BodyForces::add_to(const Field<Faces>& u, const Field<Cells>* smoke,
+                                const Field<Cells>* temperature, double time_s, double dt_s) {
+    std::vector<Input> inputs{{"velocity", &u.texture()}};
+    std::vector<Uniform> uniforms{{"dt", static_cast<float>(dt_s)},
+                                  {"gravity", glm::vec3(setup_->gravity_m_s2)},
+                                  {"time", static_cast<float>(time_s)}};
+    if (has_weight(*setup_)) {
+        inputs.push_back({"smoke", &smoke->texture()});
+        uniforms.push_back({"weight", static_cast<float>(setup_->smoke->weight)});
+    }
+    if (is_lifted(*setup_)) {
+        inputs.push_back({"temperature", &temperature->texture()});
+        uniforms.push_back({"expansion", static_cast<float>(setup_->temperature->expansion_1_k)});
+    }
+    Field<Cells> confinement;
+    if (confinement_) {
+        confinement = swirl(u);
+        inputs.push_back({"swirl", &confinement.texture()});
+    }
+    Field<Faces> next(*gpu_, setup_->cells, Format::RGBA32F);
+    add_.draw(inputs, uniforms, {&next.texture()});
+    return next;
+}
+
+Field<Cells> BodyForces::swirl(const Field<Faces>& u) {
+    const Field<Cells> vorticity(*gpu_, setup_->cells, Format::RGBA32F);
+    Field<Cells> force(*gpu_, setup_->cells, Format::RGBA32F);
+    vorticity_->draw({{"velocity", &u.texture()}}, {}, {&vorticity.texture()});
+    confinement_->draw({{"vorticity", &vorticity.texture()}},
+                       {{"strength", static_cast<float>(setup_->confinement_1_s)}}, {&force.texture()});
+    return force;
+}
+
+}  // namespace eddy::gles

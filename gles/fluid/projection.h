@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "gles/body/fractions.h"
+#include "gles/fluid/walls.h"
+
+namespace eddy::gles {
+
+/// Between the velocities on faces and the pressures in cells: divergence, and the gradient taken off. Both are drawn over
+/// the whole grid as if nothing solid were in it, then again, with the fluid's share of each face, over the boxes around
+/// bodies.
+class Projection {
+  public:
+    /// `fractions`: null when nothing solid is in the tank. All but `setup` must outlive this.
+    Projection(Gpu& gpu, const FluidSetup& setup, const Walls& walls, const Fractions* fractions,
+               const BodyUniforms& bodies);
+
+    /// div (a u + (1 - a) u_solid). `boxes`: around the bodies; `wall_time`: see Walls.
+    Field<Cells4> divergence(const Field<Faces>& u, const std::vector<Box>& boxes, const Uniform& wall_time);
+    /// u - scale grad phi, and on walls and in solids their velocity.
+    Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale,
+                         const std::vector<Box>& boxes, const Uniform& wall_time);
+
+  private:
+    /// What passes near solids read besides their own.
+    void add_solids(std::vector<Input>& inputs, std::vector<Uniform>& uniforms) const;
+
+    Gpu* gpu_;
+    const Fractions* fractions_;
+    const BodyUniforms* bodies_;
+    Pass divergence_, project_, project_at_walls_;
+    std::optional<Pass> divergence_cut_, project_cut_;
+};
+
+}  // namespace eddy::gles
