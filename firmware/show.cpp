@@ -13,11 +13,16 @@ constexpr double kWallGapCells = 1.5;
 /// The fluid's period is smoothed over about this many updates.
 constexpr double kPeriodMemory = 8.0;
 
-/// Radius of the ball that holds the held body; 0 if none is.
-double held_radius_m(const Scene& scene, const gles::FluidSetup& fluid) {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        if (scene.bodies[i].motion == BodyMotion::Held) return gles::bounding_radius_m(fluid.bodies[i].shape);
-    return 0.0;
+/// What the held body fills around its centre, however it turns in the hand if it does; nothing if none is held.
+gles::Extent held_extent(const Scene& scene, const gles::FluidSetup& fluid) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.bodies[i].motion != BodyMotion::Held) continue;
+        const gles::Shape& shape = fluid.bodies[i].shape;
+        if (!scene.bodies[i].turning) return gles::extent(shape, scene.bodies[i].orientation());
+        const glm::dvec3 radius(gles::bounding_radius_m(shape));
+        return {-radius, radius};
+    }
+    return {glm::dvec3(0.0), glm::dvec3(0.0)};
 }
 
 }  // namespace
@@ -27,10 +32,10 @@ HapticOrders orders_for(const Scene& scene, const gles::FluidSetup& fluid) {
     orders.enabled = true;
     orders.gain = scene.haptics.gain;
     orders.tank_from_device = {scene.haptics.centre_m, scene.haptics.workspace_scale};
-    const double margin = held_radius_m(scene, fluid) + kWallGapCells * scene.tank.cell_m();
-    const glm::dvec3 middle = 0.5 * scene.tank.size_m;
-    orders.lowest_m = glm::min(glm::dvec3(margin), middle);
-    orders.highest_m = glm::max(scene.tank.size_m - margin, middle);
+    const gles::Extent room = gles::room_for_centre(held_extent(scene, fluid), scene.tank.size_m,
+                                                    kWallGapCells * scene.tank.cell_m());
+    orders.lowest_m = room.low;
+    orders.highest_m = room.high;
     return orders;
 }
 

@@ -128,6 +128,12 @@ Extent extent(const Shape& shape, const glm::dquat& orientation) {
     return std::visit(ExtentOf{glm::mat3_cast(glm::normalize(orientation))}, shape);
 }
 
+Extent room_for_centre(const Extent& body, const glm::dvec3& size_m, double gap_m) {
+    const glm::dvec3 low = gap_m - body.low, high = size_m - (gap_m + body.high);
+    const glm::dvec3 middle = 0.5 * (size_m - (body.low + body.high));
+    return {glm::min(low, middle), glm::max(high, middle)};
+}
+
 Box body_box(const BodySetup& body, const BodyState& state, double cell_m, const glm::ivec3& cells) {
     if (body.inside_out) return {glm::ivec3(0), cells};
     const Extent e = extent(body.shape, state.orientation);

@@ -29,6 +29,9 @@ struct Extent {
     glm::dvec3 low, high;
 };
 Extent extent(const Shape& shape, const glm::dquat& orientation);
+/// Where the centre of a body may be in a tank of that size so that it stays gap_m from the walls; along an axis with less
+/// room, only in the middle.
+Extent room_for_centre(const Extent& body, const glm::dvec3& size_m, double gap_m);
 
 /// The cells in which the body's presence can be noticed: its extent and two cells around it, inside the
 /// grid; for a body turned inside out, the whole grid.

@@ -255,9 +255,8 @@ void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
             gained = state.velocity_m_s - old.velocity_m_s;
         }
         // What a wall or another body took is no sign of what comes next.
-        for (int i = 0; i < 3; ++i)
-            triple.acceleration[i] =
-                contacts_.stopped(3 * t + static_cast<std::size_t>(i)) ? 0.0 : gained[i] / step.dt_s;
+        triple.acceleration =
+            (triple.turns ? gained : contacts_.along(bodies_[triple.body].index, gained)) / step.dt_s;
     }
     uniforms_.set(states);
 }

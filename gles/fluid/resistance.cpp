@@ -10,17 +10,22 @@
 namespace eddy::gles {
 namespace {
 
-/// From the ball around a body to the nearest wall or body, at least one cell.
+/// From a body to the nearest wall, and from the ball that holds it to that of the nearest other body; at least one cell.
 double room_m(const FluidSetup& setup, const std::vector<BodyState>& states, std::size_t body) {
-    const double reach = bounding_radius_m(setup.bodies[body].shape);
+    const Shape& shape = setup.bodies[body].shape;
+    const Extent reach = extent(shape, states[body].orientation);
     const glm::dvec3& here = states[body].centre_m;
-    const glm::dvec3 to_walls = glm::min(here, setup.cell_m * glm::dvec3(setup.cells) - here);
-    double room = std::min({to_walls.x, to_walls.y, to_walls.z}) - reach;
+    const glm::dvec3 to_walls =
+        glm::min(here + reach.low, setup.cell_m * glm::dvec3(setup.cells) - here - reach.high);
+    double room = std::min({to_walls.x, to_walls.y, to_walls.z});
+    const double radius = bounding_ball(shape).radius_m;
     for (std::size_t i = 0; i < setup.bodies.size(); ++i) {
         if (i == body) continue;
-        const double far = glm::distance(here, states[i].centre_m);
-        const double other = bounding_radius_m(setup.bodies[i].shape);
-        room = std::min(room, (setup.bodies[i].inside_out ? other - far : far - other) - reach);
+        const Shape& other = setup.bodies[i].shape;
+        const double far = glm::distance(middle_m(shape, states[body]), middle_m(other, states[i]));
+        const double radius_of_other = bounding_ball(other).radius_m;
+        room = std::min(
+            room, (setup.bodies[i].inside_out ? radius_of_other - far : far - radius_of_other) - radius);
     }
     return std::max(room, setup.cell_m);
 }

@@ -189,6 +189,22 @@ TEST(HapticOrders, KeepTheBallInTheTankAndCarryTheScenesGain) {
     }
 }
 
+TEST(HapticOrders, LetARodCloserWithItsSideUnlessItTurnsInTheHand) {
+    for (const bool turns : {false, true}) {
+        const Scene scene =
+            read_scene(
+                std::string("[tank]\ncells = [16, 16, 16]\n[[body]]\nshape = \"capsule\"\nradius_m = 0.01\n"
+                            "length_m = 0.04\nmotion = \"held\"\n") +
+                    (turns ? "turning = true\n" : ""),
+                "test.toml")
+                .scene;
+        const HapticOrders orders = orders_for(scene, fluid_setup(scene));
+        EXPECT_NEAR(orders.lowest_m.y, 0.03 + 1.5 * 0.01, 1e-12);
+        EXPECT_NEAR(orders.lowest_m.x, (turns ? 0.03 : 0.01) + 1.5 * 0.01, 1e-12);
+        EXPECT_NEAR(orders.highest_m.x, 0.16 - orders.lowest_m.x, 1e-12);
+    }
+}
+
 TEST(HapticOrders, HoldABallThatFillsTheTankInItsMiddle) {
     const Scene scene =
         read_scene("[tank]\ncells = [16, 16, 16]\n[[body]]\nradius_m = 0.09\nmotion = \"held\"\n",

@@ -89,6 +89,33 @@ TEST_F(SecondOrder, LiftsABallAtRestAsArchimedesSays) {
     EXPECT_NEAR(fluid->pressure()[0] - fluid->pressure()[24 * 23], 23.0, 0.02);
 }
 
+TEST_F(SecondOrder, DoesNotMindStepsOfDifferentLengths) {
+    // A ball at rest under water is lifted as Archimedes says, and an eddy keeps its energy, however time is cut up.
+    FluidSetup s = tank({24, 24, 24}, 4.0, 2, 8);
+    s.gravity_m_s2 = {0.0, -1.0, 0.0};
+    const std::unique_ptr<Fluid> water = make_fluid(gpu, s);
+    const BodyState ball{.centre_m = {12.3, 11.8, 12.1}};
+    for (const double dt : {0.1, 0.3, 0.02, 0.02, 0.2, 0.05}) {
+        water->step(dt, {ball}, false);
+        EXPECT_NEAR(water->wait_result().loads[0].force_n.y / (4.0 / 3.0 * std::numbers::pi * 64.0), 1.0,
+                    0.002);
+    }
+    const int n = 32;
+    FluidSetup turning = tank({n, n, 4}, 0.0, 2);
+    const double k = std::numbers::pi / n;
+    turning.velocity_at_start = [=](const glm::dvec3& x) {
+        return glm::dvec3(std::sin(k * x.x) * std::cos(k * x.y), -std::cos(k * x.x) * std::sin(k * x.y), 0.0);
+    };
+    const std::unique_ptr<Fluid> eddy = make_fluid(gpu, turning);
+    double energy_j = 0.0;
+    for (int i = 0; i < 48; ++i) {
+        eddy->step(i % 3 == 0 ? 1.5 : 0.4, {}, true);
+        energy_j = eddy->wait_result().diagnostics->kinetic_energy_j;
+    }
+    record("kept_in_uneven_steps", energy_j / (0.25 * n * n * 4.0));
+    EXPECT_NEAR(energy_j / (0.25 * n * n * 4.0), 1.0, 0.005);
+}
+
 /// Force along x on a ball of 5 cells, step by step, that goes as `x` says.
 std::vector<double> pull(Gpu& gpu, int order, double dt, int steps, const std::function<double(double)>& x) {
     const std::unique_ptr<Fluid> fluid = make_fluid(gpu, tank({32, 32, 32}, 5.0, order));

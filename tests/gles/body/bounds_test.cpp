@@ -47,6 +47,13 @@ std::vector<glm::dvec3> points_of(const NamedShape& named, Random& random) {
     return surface_points(named.shape, random);
 }
 
+TEST(Bounds, LeaveABodyRoomUpToTheWallsOrPutItInTheMiddle) {
+    const Extent lopsided{{-1.0, -2.0, -9.0}, {3.0, 2.0, 4.0}};
+    const Extent room = room_for_centre(lopsided, glm::dvec3(10.0), 0.5);
+    EXPECT_EQ(room.low, glm::dvec3(1.5, 2.5, 7.5));
+    EXPECT_EQ(room.high, glm::dvec3(6.5, 7.5, 7.5));
+}
+
 TEST(Bounds, OfAMeshAsABallDoNotHangOnWhereItsOriginIs) {
     const glm::dvec3 low(-2.0, -1.0, -3.0), high(5.0, 1.5, 2.0), origin(3.0, -7.0, 2.0);
     const auto ball = [&](const glm::dvec3& shift) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "gles/body/distance_grid.h"
+#include "gles/body/rigid_body.h"
+#include "tests/gles/body/sample_meshes.h"
+
 namespace eddy::gles {
 namespace {
 
@@ -28,7 +32,7 @@ struct Balls {
 
     FluidSetup setup;
     std::vector<BodyState> states;
-    std::vector<std::optional<std::size_t>> unknowns{};
+    Contacts::Unknowns unknowns{};
     LinearSystem system;
 };
 
@@ -41,7 +45,7 @@ TEST(Contacts, LeaveBodiesAloneThatHaveRoom) {
     Contacts contacts(balls.setup);
     for (const double change : contacts.solve(balls.system, balls.states, balls.unknowns, 0.1))
         EXPECT_EQ(change, 0.0);
-    EXPECT_FALSE(contacts.stopped(0));
+    EXPECT_EQ(contacts.along(0, {3.0, 1.0, 2.0}), glm::dvec3(3.0, 1.0, 2.0));
 }
 
 TEST(Contacts, StopABodyOneCellBeforeTheWallAndLetItSlide) {
@@ -50,8 +54,7 @@ TEST(Contacts, StopABodyOneCellBeforeTheWallAndLetItSlide) {
     const glm::dvec3 v = balls.velocity(0, contacts.solve(balls.system, balls.states, balls.unknowns, 0.1));
     EXPECT_NEAR(balls.states[0].centre_m.x + 0.1 * v.x, 1.5, 1e-12);
     EXPECT_EQ(v.y, 2.0);
-    EXPECT_TRUE(contacts.stopped(0));
-    EXPECT_FALSE(contacts.stopped(1));
+    EXPECT_EQ(contacts.along(0, {3.0, 1.0, 2.0}), glm::dvec3(0.0, 1.0, 2.0));
 }
 
 TEST(Contacts, MakeBodiesThatMeetGoOnTogetherWithTheirMomentum) {
@@ -63,6 +66,8 @@ TEST(Contacts, MakeBodiesThatMeetGoOnTogetherWithTheirMomentum) {
     EXPECT_NEAR(b.x, 1.0, 2e-3);
     EXPECT_NEAR(a.x + 2.0 * b.x, 3.0, 1e-12);
     EXPECT_EQ(a.y, 1.0) << "they slide along each other";
+    for (const std::size_t ball : {0, 1})
+        EXPECT_EQ(contacts.along(ball, {3.0, 1.0, 2.0}), glm::dvec3(0.0, 1.0, 2.0));
 }
 
 TEST(Contacts, MakeAHandPushWhatIsInItsWay) {
@@ -119,6 +124,75 @@ TEST(Contacts, KeepTheMomentumOfABallThatSixOthersRunInto) {
         after += static_cast<double>(i + 1) * balls.velocity(i, change);
     }
     EXPECT_NEAR(glm::length(after - before), 0.0, 1e-9 * glm::length(before));
+}
+
+TEST(Contacts, LetGoOfABallThatAnotherOnePushesAway) {
+    // Ball 0 runs into ball 1; a hand, gliding by above, takes it back the way it came, faster. It may not take ball 1 along.
+    Balls balls({at({10.0, 10.0, 10.0}, {1.0, 0.0, 0.0}), at({12.5, 10.0, 10.0}),
+                 at({11.057, 12.266, 10.0}, {-10.0, 0.0, 0.0})},
+                2);
+    Contacts contacts(balls.setup);
+    const auto change = contacts.solve(balls.system, balls.states, balls.unknowns, 0.1);
+    EXPECT_LT(balls.velocity(0, change).x, -0.5);
+    EXPECT_EQ(balls.velocity(1, change), glm::dvec3(0.0));
+}
+
+TEST(Contacts, LetGoOfAWallThatABallIsPushedAwayFrom) {
+    // On its own it would go 0.6 m, 0.1 m too far; a hand from the wall's side hits it on its shoulder and stops it before.
+    Balls balls({at({2.0, 10.0, 10.0}, {-6.0, 0.0, 0.0}), at({1.0, 12.3, 10.0}, {20.0, -3.0, 0.0})}, 1);
+    Contacts contacts(balls.setup);
+    const auto change = contacts.solve(balls.system, balls.states, balls.unknowns, 0.1);
+    // 13.04 m/s along (0.3987, -0.9171) make hand and ball close no further than the 8 mm between them.
+    EXPECT_NEAR(balls.velocity(0, change).x, -6.0 + 0.3987 * 13.04, 0.01);
+}
+
+TEST(Contacts, PartBallsThatAreAtOneAndTheSamePlace) {
+    Balls balls({at(glm::dvec3(10.0)), at(glm::dvec3(10.0))});
+    const Contacts contacts(balls.setup);
+    contacts.separate(balls.states, balls.unknowns);
+    EXPECT_NEAR(glm::distance(balls.states[0].centre_m, balls.states[1].centre_m), 2.5, 1e-12);
+}
+
+TEST(Contacts, LetALongRodCloseToAWallWithItsSide) {
+    Balls balls({at({1.7, 10.0, 10.0}, {-5.0, 0.0, 0.0})});
+    balls.setup.bodies[0].shape = Capsule{1.0, 16.9};  // half a cell too long to turn over
+    Contacts contacts(balls.setup);
+    contacts.separate(balls.states, balls.unknowns);
+    EXPECT_EQ(balls.states[0].centre_m, glm::dvec3(1.7, 10.0, 10.0));
+    const glm::dvec3 v = balls.velocity(0, contacts.solve(balls.system, balls.states, balls.unknowns, 0.1));
+    EXPECT_NEAR(1.7 + 0.1 * v.x, 1.5, 1e-12);
+}
+
+TEST(Contacts, KeepTheEndOfATurningRodOutOfTheWall) {
+    Balls balls({at({1.5, 10.0, 10.0})});
+    balls.setup.bodies[0].shape = Capsule{1.0, 8.0};
+    balls.states[0].spin_rad_s = {0.0, 0.0, 1.0};
+    Contacts contacts(balls.setup);
+    const glm::dvec3 v = balls.velocity(0, contacts.solve(balls.system, balls.states, balls.unknowns, 0.1));
+    const glm::dquat after = turned(balls.states[0].orientation, balls.states[0].spin_rad_s, 0.1);
+    EXPECT_NEAR(1.5 + 0.1 * v.x + extent(balls.setup.bodies[0].shape, after).low.x, 0.5, 1e-12);
+}
+
+TEST(Contacts, DoNotHangOnWhereAMeshHasItsOrigin) {
+    // A cube, with its origin in its middle and 30 m from it: where it is stopped, at a wall and at a ball, is the same.
+    const glm::dvec3 middle(10.0), far(30.0, 4.0, -20.0);
+    const auto moved = [&](const glm::dvec3& origin, const glm::dvec3& where, const glm::dvec3& v) {
+        Balls balls({at(where + origin, v), at({10.0, 6.0, 10.0})}, 1);
+        balls.setup.bodies[0].shape =
+            Mesh{std::make_shared<DistanceGrid>(box_mesh(-origin - 1.0, -origin + 1.0), 8)};
+        Contacts contacts(balls.setup);
+        contacts.separate(balls.states, balls.unknowns);
+        return balls.states[0].centre_m - origin +
+               0.1 * balls.velocity(0, contacts.solve(balls.system, balls.states, balls.unknowns, 0.1));
+    };
+    for (const glm::dvec3& origin : {glm::dvec3(0.0), far}) {
+        const glm::dvec3 at_wall = moved(origin, {10.0, 17.0, 10.0}, {0.0, 50.0, 0.0});
+        EXPECT_LT(glm::distance(at_wall, {10.0, 18.5, 10.0}), 1e-9);
+        const glm::dvec3 at_ball = moved(origin, middle, {0.0, -50.0, 0.0});
+        EXPECT_NEAR(at_ball.y, 8.5, 0.01);
+        EXPECT_LT(glm::distance(moved(origin, middle, {1.0, 0.0, 0.0}), middle + glm::dvec3(0.1, 0.0, 0.0)),
+                  1e-9);
+    }
 }
 
 }  // namespace

@@ -39,6 +39,19 @@ TEST(Resistance, GrowsTowardsAWallAndInShortSteps) {
     EXPECT_GT(resistance_1_s(setup, kMiddle, 0, false, 0.01), 5.0 * far);
 }
 
+TEST(Resistance, OfARodGrowsWhereItIsNearAWallItself) {
+    // As near with its side as with its end; with the other, it is far.
+    const FluidSetup setup = syrup(Capsule{0.02, 0.2});
+    const glm::dquat lying = glm::angleAxis(glm::radians(90.0), glm::dvec3(0.0, 0.0, 1.0));
+    const auto at = [&](double x, const glm::dquat& orientation) {
+        return resistance_1_s(setup, {{.centre_m = {x, 0.5, 0.5}, .orientation = orientation}}, 0, false,
+                              kLong);
+    };
+    const glm::dquat upright(1.0, 0.0, 0.0, 0.0);
+    EXPECT_NEAR(at(0.03, upright), at(0.13, lying), 1e-9 * at(0.03, upright));
+    EXPECT_LT(at(0.13, upright), 0.5 * at(0.13, lying));
+}
+
 TEST(Resistance, IsNothingWithoutViscosity) {
     FluidSetup setup = syrup(Sphere{0.05});
     setup.viscosity_pa_s = 0.0;
