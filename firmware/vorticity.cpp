@@ -14,8 +14,9 @@ void for_each_cell(const glm::ivec3& n, F f) {
             for (int x = 0; x < n.x; ++x) f(glm::ivec3(x, y, z));
 }
 
-/// The velocity in the middle of the cells: as given, or the mean of two faces.
-std::vector<glm::vec3> in_cells(const std::vector<glm::vec3>& u, const glm::ivec3& n) {
+}  // namespace
+
+std::vector<glm::vec3> velocity_in_cells(const std::vector<glm::vec3>& u, const glm::ivec3& n) {
     if (u.size() == static_cast<std::size_t>(n.x * n.y * n.z)) return u;
     std::vector<glm::vec3> middle;
     for_each_cell(n, [&](const glm::ivec3& c) {
@@ -27,11 +28,9 @@ std::vector<glm::vec3> in_cells(const std::vector<glm::vec3>& u, const glm::ivec
     return middle;
 }
 
-}  // namespace
-
 std::vector<glm::vec3> vorticity(const std::vector<glm::vec3>& velocity_m_s, const glm::ivec3& n,
                                  double cell_m) {
-    const std::vector<glm::vec3> u = in_cells(velocity_m_s, n);
+    const std::vector<glm::vec3> u = velocity_in_cells(velocity_m_s, n);
     std::vector<glm::vec3> curl;
     for_each_cell(n, [&](const glm::ivec3& c) {
         const auto slope = [&](const glm::ivec3& along) {

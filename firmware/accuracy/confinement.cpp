@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "firmware/accuracy/case.h"
+#include "firmware/vorticity.h"
 
 // A18  Vorticity confinement, f = eps h (grad |w| / |grad |w||) x w (Fedkiw, Stam, Jensen 2001): what it gives to an eddy, and
 //      that it pushes the fluid as a whole nowhere.
@@ -14,20 +15,6 @@ struct Confinement {
     double power_w_kg = 0.0;  // sum of f . u over the number of cells  [W/kg]
     glm::dvec3 sum{0.0};      // of f
     double sum_of_lengths = 0.0;
-};
-
-/// A vector in the middle of each cell.
-class CellVectors {
-  public:
-    explicit CellVectors(const glm::ivec3& n) : n_(n), v_(static_cast<std::size_t>(n.x * n.y * n.z)) {}
-    glm::dvec3& at(const glm::ivec3& c) {
-        const glm::ivec3 i = glm::clamp(c, glm::ivec3(0), n_ - 1);
-        return v_[static_cast<std::size_t>((i.z * n_.y + i.y) * n_.x + i.x)];
-    }
-
-  private:
-    glm::ivec3 n_;
-    std::vector<glm::dvec3> v_;
 };
 
 void for_each_cell(const glm::ivec3& n, const std::function<void(const glm::ivec3&)>& visit) {
@@ -44,26 +31,19 @@ glm::ivec3 unit(int k) {
 
 Confinement confinement(const FaceVelocity& faces, double strength_1_s) {
     const glm::ivec3 n = faces.cells();
-    CellVectors u(n), w(n);
-    for_each_cell(n, [&](const glm::ivec3& c) {
-        for (int k = 0; k < 3; ++k) u.at(c)[k] = 0.5 * (faces.at(c, k) + faces.at(c + unit(k), k));
-    });
-    // h times the derivative along k; on the walls to one side.
-    const auto slope = [&](const auto& f, const glm::ivec3& c, int k) {
-        const glm::ivec3 low = glm::max(c - unit(k), glm::ivec3(0)), high = glm::min(c + unit(k), n - 1);
-        return (f(high) - f(low)) / static_cast<double>(std::max(1, high[k] - low[k]));
+    const std::vector<glm::vec3> u = velocity_in_cells(faces.values(), n),
+                                 w = vorticity(faces.values(), n, faces.cell_m());
+    const auto at = [&n](const std::vector<glm::vec3>& field, const glm::ivec3& c) {
+        const glm::ivec3 i = glm::clamp(c, glm::ivec3(0), n - 1);
+        return glm::dvec3(field[static_cast<std::size_t>((i.z * n.y + i.y) * n.x + i.x)]);
     };
-    const auto velocity = [&](const glm::ivec3& c) { return u.at(c); };
-    for_each_cell(n, [&](const glm::ivec3& c) {
-        const glm::dvec3 dx = slope(velocity, c, 0), dy = slope(velocity, c, 1), dz = slope(velocity, c, 2);
-        w.at(c) = {dy.z - dz.y, dz.x - dx.z, dx.y - dy.x};
-    });
     Confinement result;
     for_each_cell(n, [&](const glm::ivec3& c) {
         glm::dvec3 g;
-        for (int k = 0; k < 3; ++k) g[k] = glm::length(w.at(c + unit(k))) - glm::length(w.at(c - unit(k)));
-        const glm::dvec3 f = strength_1_s * glm::cross(g / std::max(glm::length(g), 1e-30), w.at(c));
-        result.power_w_kg += glm::dot(f, u.at(c)) / (n.x * n.y * n.z);
+        for (int k = 0; k < 3; ++k) g[k] = glm::length(at(w, c + unit(k))) - glm::length(at(w, c - unit(k)));
+        const glm::dvec3 f =
+            strength_1_s * faces.cell_m() * glm::cross(g / std::max(glm::length(g), 1e-30), at(w, c));
+        result.power_w_kg += glm::dot(f, at(u, c)) / (n.x * n.y * n.z);
         result.sum += f;
         result.sum_of_lengths += glm::length(f);
     });

@@ -14,6 +14,8 @@ class FaceVelocity {
     const glm::ivec3& cells() const { return cells_; }
     double cell_m() const { return cell_m_; }
     double at(const glm::ivec3& cell, int k) const;
+    /// All of it, as gles::Fluid::velocity() gives it.
+    const std::vector<glm::vec3>& values() const { return u_; }
     /// Middle of that face [m].
     glm::dvec3 place_m(const glm::ivec3& cell, int k) const;
     /// Calls for each face of the tank, walls included; `share`: the part of a cell's volume that belongs to the face,
