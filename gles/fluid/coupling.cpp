@@ -21,6 +21,11 @@ FluidSetup measuring_coupled(FluidSetup setup) {
     return setup;
 }
 
+FluidSetup without_friction(FluidSetup setup) {
+    setup.viscosity_pa_s = 0.0;
+    return setup;
+}
+
 int width_of_loads(const FluidSetup& setup) {
     return 2 * static_cast<int>(setup.bodies.size());
 }
@@ -89,7 +94,7 @@ Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUn
             unit_flux(setup)),
       add_(gpu, "add potentials", "gles/fluid/add_potentials.frag", Cells4::layout(setup.cells)),
       b_(gpu, setup.cells, Format::RGBA32F),
-      traction_(gpu, measuring_coupled(setup), width(setup)),
+      pressing_(gpu, without_friction(measuring_coupled(setup)), width(setup)),
       row_(gpu.textures().lease({width(setup), 1}, Format::RGBA32F)),
       readback_(gpu, {width(setup), 1}) {
     for (std::size_t i = 0; i < setup.bodies.size(); ++i) {
@@ -109,6 +114,7 @@ Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUn
                 triple.potentials.emplace_back(gpu, setup.cells, Format::RGBA32F);
         }
     }
+    if (setup.viscosity_pa_s > 0.0) rubbing_.emplace(gpu, measuring_coupled(setup), width(setup));
     if (setup.gravity_m_s2 != glm::dvec3(0.0)) hydrostatic_ = hydrostatic(gpu, setup);
     reset();
 }
@@ -180,18 +186,17 @@ void Coupling::draw_potentials(const std::vector<BodyState>& states, const Step&
 
 Coupling::Sums Coupling::add_up(const std::vector<BodyState>& states, const Step& step) {
     const int width = width_of_loads(setup_);
-    const auto draw = [&](const Field<Cells4>& phi, std::size_t load, const auto& friction) {
-        traction_.draw(phi, step.a, uniforms_, states, step.boxes, *row_, friction,
-                       width * static_cast<int>(load));
+    const auto draw = [&](Traction& traction, const Field<Cells4>& phi, std::size_t load,
+                          const std::optional<Traction::Friction>& friction) {
+        traction.draw(phi, step.a, uniforms_, states, step.boxes, *row_, friction,
+                      width * static_cast<int>(load));
     };
     uniforms_.set(states);
-    draw(step.phi, kPressure, step.friction);
-    std::optional<Traction::Friction> none;
-    if (step.friction) none.emplace(Traction::Friction{step.friction->velocity, step.friction->grip, 0.0f});
-    if (hydrostatic_) draw(*hydrostatic_, kHydrostatic, none);
+    draw(rubbing_ ? *rubbing_ : pressing_, step.phi, kPressure, step.friction);
+    if (hydrostatic_) draw(pressing_, *hydrostatic_, kHydrostatic, std::nullopt);
     for (std::size_t t = 0; t < triples_.size(); ++t)
         for (std::size_t axis = 0; axis < triples_[t].potentials.size(); ++axis)
-            draw(triples_[t].potentials[axis], kPotentials + 3 * t + axis, none);
+            draw(pressing_, triples_[t].potentials[axis], kPotentials + 3 * t + axis, std::nullopt);
     readback_.request(*row_, 0);
     auto got = readback_.take(true);
     if (!got) throw GlError("the GPU has stopped answering; no forces came back for the free bodies");

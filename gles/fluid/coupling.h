@@ -99,7 +99,8 @@ class Coupling {
     Pass flux_, add_;
     Field<Cells4> b_;                           // of a unit velocity; 0 away from the bodies
     std::optional<Field<Cells4>> hydrostatic_;  // g . x [m/s^2 cells]
-    Traction traction_;
+    Traction pressing_;                         // sums up a pressure alone,
+    std::optional<Traction> rubbing_;           // and with it the friction of a viscous fluid
     TexturePool::Lease row_;
     Readback readback_;
 };
