@@ -24,6 +24,7 @@ namespace eddy::gles {
 /// exist is decided here, once, by the scene: no body, no fractions; no smoke, no smoke texture.
 class CutCellFluid final : public Fluid {
   public:
+    /// Throws std::logic_error where the setup asks for what SolverSetup rules out.
     CutCellFluid(Gpu& gpu, FluidSetup setup);
 
     void step(double dt_s, const std::vector<BodyState>& given, bool diagnose) override;

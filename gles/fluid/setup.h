@@ -136,8 +136,8 @@ enum class ForceSum {
 struct SolverSetup {
     Method method = Method::CutCell;
     Advection advection = Advection::SemiLagrangian;
-    int cycles = 2;          ///< multigrid V-cycles a step (CutCell)
-    int time_order = 1;      ///< 2: advection-reflection (CutCell, inviscid, no coupled bodies)
+    int cycles = 2;      ///< multigrid V-cycles a step (CutCell)
+    int time_order = 1;  ///< 2: advection-reflection (CutCell, inviscid, no coupled bodies, no force_methods)
     int viscous_cycles = 2;  ///< the same for the viscous term, where there is one
     int jacobi_sweeps = 40;  ///< (Yang2009)
     ForceSum force_sum = ForceSum::Gpu;

@@ -89,6 +89,15 @@ TEST_F(SecondOrder, LiftsABallAtRestAsArchimedesSays) {
     EXPECT_NEAR(fluid->pressure()[0] - fluid->pressure()[24 * 23], 23.0, 0.02);
 }
 
+TEST_F(SecondOrder, IsRefusedWhereTheStepCannotBeCutInTwo) {
+    FluidSetup viscous = tank(glm::ivec3(8), 2.0, 2), coupled = viscous, measured = viscous;
+    viscous.viscosity_pa_s = 1.0;
+    coupled.bodies[0].coupled = Coupled{};
+    measured.force_methods = true;
+    for (const FluidSetup& setup : {viscous, coupled, measured})
+        EXPECT_THROW(make_fluid(gpu, setup), std::logic_error);
+}
+
 TEST_F(SecondOrder, DoesNotMindStepsOfDifferentLengths) {
     // A ball at rest under water is lifted as Archimedes says, and an eddy keeps its energy, however time is cut up.
     FluidSetup s = tank({24, 24, 24}, 4.0, 2, 8);
