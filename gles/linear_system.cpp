@@ -5,11 +5,6 @@
 
 namespace eddy::gles {
 
-void LinearSystem::fix(std::size_t row, double value) {
-    for (std::size_t k = 0; k < n_; ++k) a(row, k) = k == row ? 1.0 : 0.0;
-    b(row) = value;
-}
-
 std::vector<double> LinearSystem::solve() const {
     LinearSystem s = *this;
     for (std::size_t k = 0; k < n_; ++k) {

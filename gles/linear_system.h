@@ -14,8 +14,6 @@ class LinearSystem {
     double a(std::size_t row, std::size_t column) const { return a_[row * n_ + column]; }
     double& b(std::size_t row) { return b_[row]; }
     double b(std::size_t row) const { return b_[row]; }
-    /// Puts the equation x[row] = value in the place of a row.
-    void fix(std::size_t row, double value);
     /// x, by elimination with the largest pivot of each column. The matrix must not be singular.
     std::vector<double> solve() const;
 

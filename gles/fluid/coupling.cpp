@@ -89,7 +89,7 @@ Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUn
       pressure_(pressure),
       uniforms_(uniforms),
       contacts_(setup),
-      velocities_(setup.bodies.size()),
+      unknowns_(setup.bodies.size()),
       flux_(gpu, "flux of unit velocity", "gles/fluid/divergence.frag", Cells4::layout(setup.cells),
             unit_flux(setup)),
       add_(gpu, "add potentials", "gles/fluid/add_potentials.frag", Cells4::layout(setup.cells)),
@@ -109,7 +109,7 @@ Coupling::Coupling(Gpu& gpu, const FluidSetup& setup, Pressure& pressure, BodyUn
             Triple& triple = triples_.emplace_back();
             triple.body = bodies_.size() - 1;
             triple.turns = turns;
-            if (!turns) velocities_[i] = 3 * (triples_.size() - 1);
+            (turns ? unknowns_[i].spin : unknowns_[i].velocity) = 3 * (triples_.size() - 1);
             for (int axis = 0; pressed && axis < 3; ++axis)
                 triple.potentials.emplace_back(gpu, setup.cells, Format::RGBA32F);
         }
@@ -148,7 +148,7 @@ std::vector<BodyState> Coupling::predict(const std::vector<BodyState>& given,
             state.spin_rad_s = old.spin_rad_s;
         }
     }
-    contacts_.separate(states, velocities_);
+    contacts_.separate(states, unknowns_);
     for (const Triple& triple : triples_) {
         const Body& body = bodies_[triple.body];
         const glm::dvec3 change = dt_s * triple.trust * triple.acceleration;
@@ -245,7 +245,7 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
 void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
     draw_potentials(states, step);
     const LinearSystem system = newton(states, step, add_up(states, step));
-    const std::vector<double> change = contacts_.solve(system, states, velocities_, step.dt_s);
+    const std::vector<double> change = contacts_.solve(system, states, unknowns_, step.dt_s);
     for (std::size_t t = 0; t < triples_.size(); ++t) {
         Triple& triple = triples_[t];
         triple.change = {change[3 * t], change[3 * t + 1], change[3 * t + 2]};
@@ -260,8 +260,7 @@ void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
             gained = state.velocity_m_s - old.velocity_m_s;
         }
         // What a wall or another body took is no sign of what comes next.
-        triple.acceleration =
-            (triple.turns ? gained : contacts_.along(bodies_[triple.body].index, gained)) / step.dt_s;
+        triple.acceleration = contacts_.along(3 * t, gained) / step.dt_s;
     }
     uniforms_.set(states);
 }

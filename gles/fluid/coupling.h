@@ -95,7 +95,7 @@ class Coupling {
     std::vector<BodyState> before_;  // all bodies, at the end of the last step
     std::vector<Box> boxes_before_;
     Contacts contacts_;
-    std::vector<std::optional<std::size_t>> velocities_;  // of each body of the scene, in Contacts' sense
+    std::vector<Contacts::Unknowns> unknowns_;  // of each body of the scene
     Pass flux_, add_;
     Field<Cells4> b_;                           // of a unit velocity; 0 away from the bodies
     std::optional<Field<Cells4>> hydrostatic_;  // g . x [m/s^2 cells]

@@ -35,15 +35,5 @@ TEST(LinearSystem, SwapsRowsWhereTheDiagonalIsZero) {
     EXPECT_EQ(s.solve(), (std::vector<double>{2.0, 3.0}));
 }
 
-TEST(LinearSystem, KeepsAnUnknownThatIsFixed) {
-    LinearSystem s = sample(3);
-    s.b(0) = 1.0;
-    s.fix(1, 5.0);
-    const std::vector<double> x = s.solve();
-    EXPECT_EQ(x[1], 5.0);
-    EXPECT_NEAR(s.a(0, 0) * x[0] + s.a(0, 1) * 5.0 + s.a(0, 2) * x[2], 1.0, 1e-12);
-    EXPECT_NEAR(s.a(2, 0) * x[0] + s.a(2, 1) * 5.0 + s.a(2, 2) * x[2], 0.0, 1e-12);
-}
-
 }  // namespace
 }  // namespace eddy::gles

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -134,7 +135,26 @@ TEST_F(FreeBody, IsStoppedByTheWallsAndStaysThere) {
     for (int i = 0; i < 70; ++i) fluid->step(0.1, {kMiddle}, false);
     const BodyState& ball = fluid->bodies()[0];
     EXPECT_NEAR(ball.centre_m.y, 4.6, 1e-9) << "one cell above the floor";
-    EXPECT_EQ(ball.velocity_m_s.y, 0.0);
+    EXPECT_NEAR(ball.velocity_m_s.y, 0.0, 1e-7);
+}
+
+TEST_F(FreeBody, ComesToLieOnTheFloorWhenItIsALongRod) {
+    // Twelve cells of the tank's 16 long, let go leaning: the ball around it would be stopped at once.
+    FluidSetup setup = well(Capsule{1.5, 9.0}, 5.0, 0.0, 16);
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    const BodyState leaning{.centre_m = glm::dvec3(8.0),
+                            .orientation = glm::angleAxis(glm::radians(65.0), glm::dvec3(0.0, 0.0, 1.0))};
+    double lowest = 8.0;
+    for (int i = 0; i < 100; ++i) {
+        fluid->step(0.1, {leaning}, false);
+        lowest = std::min(lowest, fluid->bodies()[0].centre_m.y);
+        EXPECT_LT(glm::length(fluid->bodies()[0].velocity_m_s), 3.0) << "step " << i;
+    }
+    const BodyState& rod = fluid->bodies()[0];
+    record("height_at_last", rod.centre_m.y);
+    EXPECT_NEAR(lowest, 2.5, 0.05) << "one cell above the floor";
+    EXPECT_NEAR(rod.centre_m.y, 2.5, 0.05) << "and stays";
+    EXPECT_LT(std::abs((rod.orientation * glm::dvec3(0.0, 1.0, 0.0)).y), 0.03);
 }
 
 TEST_F(FreeBody, IsMovedOutOfAnotherItIsPutInto) {
