@@ -100,14 +100,15 @@ TEST_F(SecondOrder, IsRefusedWhereTheStepCannotBeCutInTwo) {
 
 TEST_F(SecondOrder, DoesNotMindStepsOfDifferentLengths) {
     // A ball at rest under water is lifted as Archimedes says, and an eddy keeps its energy, however time is cut up.
-    FluidSetup s = tank({24, 24, 24}, 4.0, 2, 8);
+    // With few cycles the pressure must come from the last step, for as long as this one is.
+    FluidSetup s = tank({24, 24, 24}, 4.0, 2, 2);
     s.gravity_m_s2 = {0.0, -1.0, 0.0};
     const std::unique_ptr<Fluid> water = make_fluid(gpu, s);
     const BodyState ball{.centre_m = {12.3, 11.8, 12.1}};
     for (const double dt : {0.1, 0.3, 0.02, 0.02, 0.2, 0.05}) {
         water->step(dt, {ball}, false);
         EXPECT_NEAR(water->wait_result().loads[0].force_n.y / (4.0 / 3.0 * std::numbers::pi * 64.0), 1.0,
-                    0.002);
+                    0.004);
     }
     const int n = 32;
     FluidSetup turning = tank({n, n, 4}, 0.0, 2);
