@@ -14,7 +14,8 @@ namespace eddy::gles {
 struct PassRecord {
     std::string stage;  ///< the line of the step it belongs to
     std::string pass;
-    std::vector<std::string> inputs;  ///< sampler names
+    std::vector<std::string> inputs;    ///< sampler names
+    std::vector<std::string> uniforms;  ///< given a value, besides where to draw
     std::vector<const Texture*> outputs;
     int draws = 0;             ///< draw calls: one, or one for each box that is not empty
     std::int64_t texels = 0;   ///< texels written (one per fragment, whatever the number of outputs)

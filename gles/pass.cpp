@@ -206,6 +206,8 @@ void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& un
         record.pass = name_;
         for (const Input& input : inputs)
             if (find(input.name)) record.inputs.emplace_back(input.name);
+        for (const Uniform& uniform : uniforms)
+            if (find(uniform.name)) record.uniforms.emplace_back(uniform.name);
         record.outputs = outputs;
         record.draws = draws;
         record.texels = texels;

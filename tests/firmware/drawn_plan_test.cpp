@@ -1,8 +1,9 @@
 #include <GLES3/gl3.h>
 #include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cctype>
 
 #include "config/scene.h"
 #include "firmware/body_schedule.h"
@@ -10,13 +11,13 @@
 #include "gles/fluid/fluid.h"
 #include "tests/gles/gl_fixture.h"
 
-// What GL was really asked to do, counted on the way in: this program defines the functions that draw and
-// that make textures, and hands each call on to the driver.
+// What GL was really asked to do, counted on the way in: this program defines the functions that draw, that make
+// textures and that set uniforms, and hands each call on to the driver.
 
 namespace {
 
 struct Asked {
-    long draws = 0, textures = 0;
+    long draws = 0, textures = 0, uniforms = 0;
     std::size_t bytes = 0;
 } g_asked;
 
@@ -66,6 +67,28 @@ void glTexStorage2D(GLenum target, GLsizei levels, GLenum format, GLsizei width,
         bytes_per_texel(format) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     driver(target, levels, format, width, height);
 }
+
+// Every glUniform call that gles/pass.cpp makes; one that it does not name would not be counted.
+#define COUNTED_UNIFORM(name, parameters, arguments)             \
+    void name parameters {                                       \
+        static auto* const driver = next<decltype(name)>(#name); \
+        ++g_asked.uniforms;                                      \
+        driver arguments;                                        \
+    }
+COUNTED_UNIFORM(glUniform1i, (GLint at, GLint x), (at, x))
+COUNTED_UNIFORM(glUniform1f, (GLint at, GLfloat x), (at, x))
+COUNTED_UNIFORM(glUniform2f, (GLint at, GLfloat x, GLfloat y), (at, x, y))
+COUNTED_UNIFORM(glUniform3f, (GLint at, GLfloat x, GLfloat y, GLfloat z), (at, x, y, z))
+COUNTED_UNIFORM(glUniform4f, (GLint at, GLfloat x, GLfloat y, GLfloat z, GLfloat w), (at, x, y, z, w))
+COUNTED_UNIFORM(glUniform3i, (GLint at, GLint x, GLint y, GLint z), (at, x, y, z))
+COUNTED_UNIFORM(glUniform4i, (GLint at, GLint x, GLint y, GLint z, GLint w), (at, x, y, z, w))
+COUNTED_UNIFORM(glUniform3fv, (GLint at, GLsizei n, const GLfloat* v), (at, n, v))
+COUNTED_UNIFORM(glUniform4fv, (GLint at, GLsizei n, const GLfloat* v), (at, n, v))
+COUNTED_UNIFORM(glUniformMatrix3fv, (GLint at, GLsizei n, GLboolean turned, const GLfloat* v),
+                (at, n, turned, v))
+COUNTED_UNIFORM(glUniformMatrix4fv, (GLint at, GLsizei n, GLboolean turned, const GLfloat* v),
+                (at, n, turned, v))
+#undef COUNTED_UNIFORM
 }
 
 namespace eddy {
@@ -75,11 +98,129 @@ namespace {
 Scene small_scene(std::string_view name, const std::string& preset) {
     const glm::ivec3 n = load_scene(std::string(name)).scene.tank.cells;
     const glm::ivec3 small = n * 16 / std::min({n.x, n.y, n.z});
-    const std::vector<std::string> overrides{"tank.cells=[" + std::to_string(small.x) + "," +
-                                                 std::to_string(small.y) + "," + std::to_string(small.z) +
-                                                 "]",
-                                             "solver.preset=\"" + preset + "\""};
+    const std::vector<std::string> overrides{fmt::format("tank.cells=[{},{},{}]", small.x, small.y, small.z),
+                                             fmt::format("solver.preset=\"{}\"", preset)};
     return load_scene(std::string(name), overrides).scene;
+}
+
+/// A validation scene as it is, but on a coarser grid if it has more than 32^3 cells.
+Scene small_validation_scene(const std::string& name) {
+    glm::ivec3 n = load_scene(name).scene.tank.cells;
+    while (n.x * n.y * n.z > 32 * 32 * 32) n /= 2;
+    const std::vector<std::string> overrides{fmt::format("tank.cells=[{},{},{}]", n.x, n.y, n.z)};
+    return load_scene(name, overrides).scene;
+}
+
+/// Uniforms that say where a draw draws.
+constexpr int kPlaces = 2;
+
+/// What of a scene calls for a pass whose name starts so. The longest start counts.
+struct Caller {
+    const char* start;
+    bool (*calls)(const Scene&);
+};
+bool any_body(const Scene& s) {
+    return !s.bodies.empty();
+}
+bool any_measured(const Scene& s) {
+    return std::any_of(s.bodies.begin(), s.bodies.end(),
+                       [](const Scene::Body& b) { return b.force || b.torque; });
+}
+bool any_coupled(const Scene& s) {
+    return std::any_of(s.bodies.begin(), s.bodies.end(),
+                       [](const Scene::Body& b) { return b.motion == BodyMotion::Free || b.turning; });
+}
+template <class Member>
+bool any_source(const Scene& s, Member what) {
+    return std::any_of(s.sources.begin(), s.sources.end(),
+                       [&](const Scene::Source& source) { return (source.*what).has_value(); });
+}
+bool corrects(const Scene& s) {
+    return s.solver.advection ? s.solver.advection == AdvectionScheme::MacCormack
+                              : s.solver.preset == SolverPreset::Precise;
+}
+bool always(const Scene&) {
+    return true;
+}
+bool solved(const Scene& s) {
+    return !s.imposed;
+}
+bool viscous(const Scene& s) {
+    return s.fluid.viscosity_pa_s > 0.0;
+}
+bool smoky(const Scene& s) {
+    return s.smoke.has_value();
+}
+bool warm(const Scene& s) {
+    return s.temperature.has_value();
+}
+bool spreading(const Scene& s) {
+    return warm(s) && s.temperature->diffusivity_m2_s > 0.0;
+}
+bool second_order(const Scene& s) {
+    return s.solver.time_order == 2;
+}
+bool pushed(const Scene& s) {
+    return s.fluid.gravity_m_s2 != glm::dvec3(0.0) || s.forcing || s.vorticity_confinement;
+}
+
+const Caller kCallers[] = {
+    {"add halves", second_order},
+    {"add loads", [](const Scene& s) { return second_order(s) && any_measured(s); }},
+    {"add potentials", any_coupled},
+    {"add pressure", viscous},
+    {"advect heat", warm},
+    {"advect smoke", smoky},
+    {"advect velocity", solved},
+    {"body forces", pushed},
+    {"coarsen fractions", any_body},
+    {"confinement", [](const Scene& s) { return s.vorticity_confinement.has_value(); }},
+    {"copy back", any_body},
+    {"correct heat", [](const Scene& s) { return warm(s) && corrects(s); }},
+    {"correct smoke", [](const Scene& s) { return smoky(s) && corrects(s); }},
+    {"correct velocity", [](const Scene& s) { return solved(s) && corrects(s); }},
+    {"diagnose", always},
+    {"diffusion", spreading},
+    {"distances", [](const Scene& s) { return viscous(s) && any_body(s); }},
+    {"divergence", always},
+    {"divergence cut", any_body},
+    {"drive sources", [](const Scene& s) { return any_source(s, &Scene::Source::velocity_m_s); }},
+    {"flux of unit velocity", any_coupled},
+    {"follow bodies", any_body},
+    {"force", any_measured},
+    {"fractions", any_body},
+    {"grip", [](const Scene& s) { return viscous(s) && any_body(s); }},
+    {"heat sources", [](const Scene& s) { return any_source(s, &Scene::Source::temperature_k_per_s); }},
+    {"imposed flow", [](const Scene& s) { return s.imposed.has_value(); }},
+    {"jacobi", solved},
+    {"owners", [](const Scene& s) { return s.outputs.force_methods; }},
+    {"project", solved},
+    {"project cut", any_body},
+    {"prolong", solved},
+    {"reduce diagnosis", always},
+    {"reduce heat", warm},
+    {"reflect", second_order},
+    {"restrict residual", solved},
+    {"sharpen fractions", any_body},
+    {"smoke sources", [](const Scene& s) { return any_source(s, &Scene::Source::smoke_per_s); }},
+    {"smooth", solved},
+    {"sum force", any_measured},
+    {"sum traction", [](const Scene& s) { return any_measured(s) || any_coupled(s); }},
+    {"traction", [](const Scene& s) { return any_measured(s) || any_coupled(s); }},
+    {"viscosity", viscous},
+    {"viscous", viscous},
+    {"voxelise", any_body},
+    {"vorticity", [](const Scene& s) { return s.vorticity_confinement.has_value(); }},
+};
+
+void expect_called_for(const gles::PassRecord& record, const Scene& scene) {
+    const Caller* longest = nullptr;
+    for (const Caller& caller : kCallers)
+        if (record.pass.starts_with(caller.start) &&
+            (!longest || std::string_view(caller.start).size() > std::string_view(longest->start).size()))
+            longest = &caller;
+    ASSERT_NE(longest, nullptr) << "which part of a scene calls for the pass " << record.pass << "?";
+    EXPECT_TRUE(longest->calls(scene)) << record.pass << " in a scene that does not call for it";
 }
 
 /// Runs a scene for six steps and compares their plan with what GL was asked to do.
@@ -97,19 +238,26 @@ void expect_plan_is_what_gl_does(const gles::Capabilities& capabilities, const S
         fluid->step(dt, motions.at(n * dt, dt), diagnose);
         own.record(nullptr);
         fluid->result(true);
-        const long planned =
-            std::accumulate(records.begin(), records.end(), 0L,
-                            [](long sum, const gles::PassRecord& r) { return sum + r.draws; });
-        EXPECT_EQ(g_asked.draws - before.draws, planned) << "step " << n;
-        EXPECT_GT(planned, 0);
-        for (const gles::PassRecord& r : records)
+        Asked planned;
+        for (const gles::PassRecord& r : records) {
+            planned.draws += r.draws;
+            planned.uniforms += static_cast<long>(r.uniforms.size()) + kPlaces * r.draws;
             EXPECT_FALSE(r.stage.empty()) << r.pass << " belongs to no stage";
+            expect_called_for(r, scene);
+        }
+        EXPECT_EQ(g_asked.draws - before.draws, planned.draws) << "step " << n;
+        // Passes that are drawn for the first time are linked: their samplers are numbered, once.
+        if (n > 2) {
+            EXPECT_EQ(g_asked.uniforms - before.uniforms, planned.uniforms) << "step " << n;
+        }
+        EXPECT_GT(planned.draws, 0);
         EXPECT_TRUE(n <= 2 || g_asked.textures == before.textures) << "step " << n << " made textures";
     }
     EXPECT_EQ(g_asked.textures, static_cast<long>(own.textures().made()));
     EXPECT_EQ(g_asked.bytes, own.textures().bytes());
 }
 
+/// A shipped scene with a preset, or a validation scene as it is (preset "").
 class DrawnPlan : public gles::GlTest,
                   public testing::WithParamInterface<std::tuple<std::string_view, std::string>> {};
 
@@ -117,7 +265,8 @@ TEST_P(DrawnPlan, IsWhatGlWasAskedToDo) {
     const auto& [name, preset] = GetParam();
     if (preset == "yang2009" && load_scene(std::string(name)).scene.fluid.gravity_m_s2 != glm::dvec3(0.0))
         GTEST_SKIP() << "skipped: the method of 2009 has no gravity";
-    expect_plan_is_what_gl_does(gpu.capabilities(), small_scene(name, preset));
+    expect_plan_is_what_gl_does(gpu.capabilities(), preset.empty() ? small_validation_scene(std::string(name))
+                                                                   : small_scene(name, preset));
 }
 
 /// What no shipped scene has.
@@ -149,12 +298,18 @@ INSTANTIATE_TEST_SUITE_P(Effect, DrawnEffect, testing::ValuesIn(kEffects),
                          [](const auto& tested) { return std::string(tested.param.first); });
 
 std::string test_name(const testing::TestParamInfo<DrawnPlan::ParamType>& info) {
-    return std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param);
+    std::string name = std::string(std::get<0>(info.param)) + "_" + std::get<1>(info.param);
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return name;
 }
 
 INSTANTIATE_TEST_SUITE_P(ShippedScene, DrawnPlan,
                          testing::Combine(testing::ValuesIn(shipped_scenes()),
                                           testing::Values("fast", "precise", "yang2009")),
+                         test_name);
+INSTANTIATE_TEST_SUITE_P(ValidationScene, DrawnPlan,
+                         testing::Combine(testing::ValuesIn(validation_scenes()), testing::Values("")),
                          test_name);
 
 }  // namespace
