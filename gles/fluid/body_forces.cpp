@@ -7,12 +7,16 @@
 namespace eddy::gles {
 namespace {
 
+bool has_gravity(const FluidSetup& setup) {
+    return setup.gravity_m_s2 != glm::dvec3(0.0);
+}
+
 bool has_weight(const FluidSetup& setup) {
-    return setup.smoke && setup.smoke->weight != 0.0;
+    return has_gravity(setup) && setup.smoke && setup.smoke->weight != 0.0;
 }
 
 bool is_lifted(const FluidSetup& setup) {
-    return setup.temperature && setup.temperature->expansion_1_k != 0.0;
+    return has_gravity(setup) && setup.temperature && setup.temperature->expansion_1_k != 0.0;
 }
 
 bool is_confined(const FluidSetup& setup) {
@@ -23,6 +27,7 @@ bool is_confined(const FluidSetup& setup) {
 Variant force_variant(const FluidSetup& setup) {
     Variant v;
     v.layouts.emplace_back("CELL_CENTRES", Cells::layout(setup.cells));
+    if (has_gravity(setup)) v.defines.emplace_back("GRAVITY", "");
     if (has_weight(setup)) v.defines.emplace_back("WEIGHT", "");
     if (is_lifted(setup)) v.defines.emplace_back("LIFT", "");
     if (is_confined(setup)) v.defines.emplace_back("CONFINEMENT", "");
@@ -41,7 +46,7 @@ Variant force_variant(const FluidSetup& setup) {
 }  // namespace
 
 bool BodyForces::needed(const FluidSetup& setup) {
-    return setup.gravity_m_s2 != glm::dvec3(0.0) || setup.acceleration_m_s2 || is_confined(setup);
+    return has_gravity(setup) || setup.acceleration_m_s2 || is_confined(setup);
 }
 
 BodyForces::BodyForces(Gpu& gpu, const FluidSetup& setup)

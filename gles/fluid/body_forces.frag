@@ -7,10 +7,12 @@
 // writes  u          RGBA32F  Faces                      [m/s]
 // fetches 1, WEIGHT 5, LIFT 5, WEIGHT+LIFT 9, CONFINEMENT 5, WEIGHT+CONFINEMENT 9, LIFT+CONFINEMENT 9, WEIGHT+LIFT+CONFINEMENT 13
 //
-// Variant FORCING has the scene's own f(x, t) [m/s^2] in front of it.
+// WEIGHT and LIFT come with GRAVITY. Variant FORCING has the scene's own f(x, t) [m/s^2] in front of it.
 uniform sampler2D velocity;
-uniform float dt;      // [s]
+uniform float dt;  // [s]
+#ifdef GRAVITY
 uniform vec3 gravity;  // [m/s^2]
+#endif
 #ifdef WEIGHT
 uniform sampler2D smoke;
 uniform float weight;
@@ -45,6 +47,8 @@ out vec4 result;
 
 void main() {
     ivec3 c = cell_here(TARGET);
+    vec3 acceleration = vec3(0.0);
+#ifdef GRAVITY
     vec3 density = vec3(1.0);  // relative, of the fluid on the three faces of this texel
 #ifdef WEIGHT
     density += weight * on_faces(smoke, c);
@@ -52,7 +56,8 @@ void main() {
 #ifdef LIFT
     density -= expansion * on_faces(temperature, c);
 #endif
-    vec3 acceleration = gravity * density;
+    acceleration = gravity * density;
+#endif
 #ifdef FORCING
     vec3 x = vec3(c);
     acceleration += vec3(forcing(x + vec3(0.0, 0.5, 0.5)).x, forcing(x + vec3(0.5, 0.0, 0.5)).y,

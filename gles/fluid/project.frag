@@ -7,9 +7,14 @@
 // fetches 5, CUT 8, WALLS 15, CUT+WALLS 24
 //
 // Variants: plain away from solids; CUT near them; WALLS for the layers at the upper walls, where components that own no
-// face there repeat their neighbour (velocity.glsl); THROUGH where walls let fluid through (walls.h).
+// face there repeat their neighbour (velocity.glsl); THROUGH where walls let fluid through (walls.h);
+// PREDICTS where a viscous step starts with the pressure of the last one.
 uniform sampler2D velocity, phi;
+#ifdef PREDICTS
 uniform float scale;  // of phi: the last step's, when it serves for this one
+#else
+const float scale = 1.0;
+#endif
 #ifdef CUT
 uniform sampler2D ax, ay, az;
 #endif

@@ -16,6 +16,12 @@ Variant variant(const FluidSetup& setup, const Walls& walls, bool cut) {
     return v;
 }
 
+Variant project_variant(const FluidSetup& setup, const Walls& walls, bool cut) {
+    Variant v = variant(setup, walls, cut);
+    if (setup.viscosity_pa_s > 0.0) v.defines.emplace_back("PREDICTS", "");
+    return v;
+}
+
 Variant at_walls(Variant v) {
     v.defines.emplace_back("WALLS", "");
     return v;
@@ -38,13 +44,14 @@ Projection::Projection(Gpu& gpu, const FluidSetup& setup, const Walls& walls, co
       fractions_(fractions),
       bodies_(&bodies),
       divergence_(gpu, "divergence", kDivergence, Cells4::layout(setup.cells), variant(setup, walls, false)),
-      project_(gpu, "project", kProject, Faces::layout(setup.cells), variant(setup, walls, false)),
+      project_(gpu, "project", kProject, Faces::layout(setup.cells), project_variant(setup, walls, false)),
       project_at_walls_(gpu, "project at walls", kProject, Faces::layout(setup.cells),
-                        at_walls(variant(setup, walls, fractions != nullptr))) {
+                        at_walls(project_variant(setup, walls, fractions != nullptr))) {
     if (!fractions) return;
-    const Variant cut = variant(setup, walls, true);
-    divergence_cut_.emplace(gpu, "divergence cut", kDivergence, Cells4::layout(setup.cells), cut);
-    project_cut_.emplace(gpu, "project cut", kProject, Faces::layout(setup.cells), cut);
+    divergence_cut_.emplace(gpu, "divergence cut", kDivergence, Cells4::layout(setup.cells),
+                            variant(setup, walls, true));
+    project_cut_.emplace(gpu, "project cut", kProject, Faces::layout(setup.cells),
+                         project_variant(setup, walls, true));
 }
 
 void Projection::add_solids(std::vector<Input>& inputs, std::vector<Uniform>& uniforms) const {

@@ -3,6 +3,7 @@
 // reads   phi         RGBA32F  Cells4 (nx, ny, nz)       [m/s]
 // reads   ax, ay, az  RGBA32F  Faces4                    fluid fraction
 // writes  force, moment   RGBA32F, one texel for each column of the body's box: rgb  [m/s cells^2], [m/s cells^3]
+//         variants FORCE, TORQUE: which of them, and to which output
 // reads   velocity    RGBA32F  Faces (nx+1, ny+1, nz+1)  [m/s]     variant VISCOUS: after the viscous step
 // reads   distances, grips, surface   RGBA32F  Faces     as grip.frag has them   variant VISCOUS
 // fetches 50, VISCOUS 250          10 for each slab of four layers, and 10 a cell; a ball of 5 cells has 5 slabs
@@ -18,15 +19,22 @@ uniform float lambda;  // nu dt / h^2
 #endif
 uniform sampler2D phi, ax, ay, az;
 uniform ivec3 box_low, box_high;  // in cells; z in slabs of four
-uniform vec3 pivot;               // the body's centre  [cells]
 uniform int body;
-
-layout(location = 0) out vec4 force;
-layout(location = 1) out vec4 moment;
+#ifdef FORCE
+layout(location = FORCE) out vec4 force;
+#endif
+#ifdef TORQUE
+uniform vec3 pivot;  // the body's centre  [cells]
+layout(location = TORQUE) out vec4 moment;
+#endif
 
 void add(vec3 x, vec3 f) {
+#ifdef FORCE
     force.xyz += f;
+#endif
+#ifdef TORQUE
     moment.xyz += cross(x - pivot, f);
+#endif
 }
 
 #ifdef VISCOUS
@@ -36,7 +44,8 @@ void add_friction(ivec3 c) {
     vec3 slope[3];
     for (int axis = 0; axis < 3; ++axis) {
         ivec3 e = ivec3(equal(ivec3(axis), ivec3(0, 1, 2)));
-        slope[axis] = 0.5 * (at_clamped(distances, FACES, c + e).xyz - at_clamped(distances, FACES, c - e).xyz);
+        slope[axis] =
+            0.5 * (at_clamped(distances, FACES, c + e).xyz - at_clamped(distances, FACES, c - e).xyz);
     }
     vec3 f = lambda * at(grips, FACES, c).xyz * (at(velocity, FACES, c).xyz - at(surface, FACES, c).xyz);
     for (int k = 0; k < 3; ++k) {
@@ -52,13 +61,18 @@ void add_friction(ivec3 c) {
 // 1 for the faces of the cell around x, on its upper (0.5) or lower (-0.5) sides, whose solid share is this body's. Each has
 // its own, as in divergence.frag: between bodies that nearly touch, a cell's faces belong to both.
 vec3 own(vec3 x, float side) {
-    return vec3(nearest_body(x + vec3(side, 0.0, 0.0)) == body, nearest_body(x + vec3(0.0, side, 0.0)) == body,
+    return vec3(nearest_body(x + vec3(side, 0.0, 0.0)) == body,
+                nearest_body(x + vec3(0.0, side, 0.0)) == body,
                 nearest_body(x + vec3(0.0, 0.0, side)) == body);
 }
 
 void main() {
+#ifdef FORCE
     force = vec4(0.0);
+#endif
+#ifdef TORQUE
     moment = vec4(0.0);
+#endif
     ivec2 column = ivec2(gl_FragCoord.xy) + box_low.xy;
     if (any(greaterThanEqual(column, box_high.xy))) return;
     for (int slab = box_low.z; slab < box_high.z; ++slab) {
@@ -75,7 +89,9 @@ void main() {
             vec3 solid = (1.0 - high) * own(x, 0.5) - (1.0 - low) * own(x, -0.5);
 #ifdef VISCOUS
             add_friction(cell);
+#ifdef TORQUE
             moment.xyz += lambda * cross(x - pivot, cross(body_spin[body], solid));
+#endif
 #endif
             add(x, p[lane] * solid);
         }

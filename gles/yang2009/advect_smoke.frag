@@ -4,11 +4,17 @@
 // reads   smoke      R32F     Cells                 [1]
 // writes  s          R32F     Cells                 [1]
 // fetches 3
+//
+// Variant FADES: k is not 0.
 #include "fluid/sources.glsl"
 
 uniform sampler2D velocity, smoke;
-uniform float dt_h;     // dt / h  [s/m]
+uniform float dt_h;  // dt / h  [s/m]
+#ifdef FADES
 uniform float remains;  // exp(-k dt)
+#else
+const float remains = 1.0;
+#endif
 
 out float result;
 

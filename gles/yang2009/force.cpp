@@ -1,5 +1,7 @@
 #include "gles/yang2009/force.h"
 
+#include "gles/body/traction.h"
+
 namespace eddy::gles {
 namespace {
 
@@ -18,12 +20,16 @@ std::variant<HalvingSum, LinearSum> make_sum(Gpu& gpu, const FluidSetup& setup, 
 }  // namespace
 
 VoxelForce::VoxelForce(Gpu& gpu, const FluidSetup& setup, int target_width)
-    : gpu_(&gpu),
-      cell_m_(setup.cell_m),
-      force_(gpu, "force", "gles/yang2009/force.frag", Cells::layout(setup.cells), force_variant(setup)),
-      sum_(make_sum(gpu, setup, target_width)) {
-    for (std::size_t i = 0; i < setup.bodies.size(); ++i)
-        if (setup.bodies[i].force || setup.bodies[i].torque) measured_.push_back(static_cast<int>(i));
+    : gpu_(&gpu), cell_m_(setup.cell_m), sum_(make_sum(gpu, setup, target_width)) {
+    for (std::size_t i = 0; i < setup.bodies.size(); ++i) {
+        const BodySetup& body = setup.bodies[i];
+        if (!body.force && !body.torque) continue;
+        Variant variant = force_variant(setup);
+        const std::vector<int> parts = parts_asked_for(body, variant);
+        bodies_.push_back(
+            {static_cast<int>(i), parts,
+             Pass(gpu, "force", "gles/yang2009/force.frag", Cells::layout(setup.cells), variant)});
+    }
 }
 
 void VoxelForce::draw(const Field<Cells>& phi, const Field<Cells>& star, float diffusion,
@@ -32,19 +38,22 @@ void VoxelForce::draw(const Field<Cells>& phi, const Field<Cells>& star, float d
     const auto sum = [&](const Field<Cells>& field, int to) {
         std::visit([&](auto& method) { method.draw(field.texture(), target, to); }, sum_);
     };
-    for (int body : measured_) {
-        const Field<Cells> force(*gpu_, phi.cells(), Format::RGBA32F),
-            moment(*gpu_, phi.cells(), Format::RGBA32F);
-        const glm::vec3 pivot(states[static_cast<std::size_t>(body)].centre_m / cell_m_);
+    for (Body& body : bodies_) {
+        std::vector<Field<Cells>> fields;
+        std::vector<const Texture*> outputs;
+        for (std::size_t i = 0; i < body.parts.size(); ++i) {
+            fields.emplace_back(*gpu_, phi.cells(), Format::RGBA32F);
+            outputs.push_back(&fields.back().texture());
+        }
+        const glm::vec3 pivot(states[static_cast<std::size_t>(body.index)].centre_m / cell_m_);
         std::vector<Input> inputs = uniforms.inputs();
         inputs.insert(
             inputs.end(),
             {{"phi", &phi.texture()}, {"velocity", &star.texture()}, {"obstacles", &voxels.texture()}});
         std::vector<Uniform> values = uniforms.uniforms();
-        values.insert(values.end(), {{"pivot", pivot}, {"body", body}, {"diffusion", diffusion}});
-        force_.draw(inputs, values, {&force.texture(), &moment.texture()});
-        sum(force, 2 * body);
-        sum(moment, 2 * body + 1);
+        values.insert(values.end(), {{"pivot", pivot}, {"body", body.index}, {"diffusion", diffusion}});
+        body.force.draw(inputs, values, outputs);
+        for (std::size_t i = 0; i < fields.size(); ++i) sum(fields[i], 2 * body.index + body.parts[i]);
     }
 }
 

@@ -5,6 +5,7 @@
 // reads   velocity    RGBA32F  Cells, u*             [m/s]                variant VISCOUS
 // writes  force       RGBA32F  Cells, T_F            rgb [m/s cells^2]    ON the body; elsewhere 0
 // writes  moment      RGBA32F  Cells                 rgb [m/s cells^3]    about the body's centre
+// variants FORCE, TORQUE: which of them, and to which output
 // fetches 1
 //
 // 8 in the few surrounding cells, and 10 for each face there if VISCOUS. The sum runs over the faces shared with
@@ -19,11 +20,14 @@
 #include "cell_types.glsl"
 
 uniform sampler2D phi, obstacles;
-uniform vec3 pivot;  // the body's centre  [cells]
 uniform int body;
-
-layout(location = 0) out vec4 force;
-layout(location = 1) out vec4 moment;
+#ifdef FORCE
+layout(location = FORCE) out vec4 force;
+#endif
+#ifdef TORQUE
+uniform vec3 pivot;  // the body's centre  [cells]
+layout(location = TORQUE) out vec4 moment;
+#endif
 
 #ifdef VISCOUS
 uniform sampler2D velocity;
@@ -55,14 +59,22 @@ void add_face(ivec3 c, ivec3 e, float p) {
 #ifdef VISCOUS
     P += viscous(c, e);
 #endif
+#ifdef FORCE
     force.xyz += P;
+#endif
+#ifdef TORQUE
     moment.xyz += cross(vec3(c) + 0.5 + 0.5 * vec3(e) - pivot, P);
+#endif
 }
 
 void main() {
     ivec3 c = cell_here(TARGET);
+#ifdef FORCE
     force = vec4(0.0);
+#endif
+#ifdef TORQUE
     moment = vec4(0.0);
+#endif
     if (at(obstacles, TARGET, c).w != kSurrounding) return;
     float p = at(phi, TARGET, c).x;
     add_face(c, ivec3(1, 0, 0), p);

@@ -17,7 +17,7 @@ class VoxelForce {
     /// results.
     VoxelForce(Gpu& gpu, const FluidSetup& setup, int target_width);
 
-    /// Writes, for body i, the sum of T_F to texel 2i of `target` and its moment to texel 2i + 1: in m/s
+    /// Writes, for body i, the sum of T_F to texel 2i of `target` and its moment to texel 2i + 1, as far as they are asked for: in m/s
     /// cells^2 and m/s cells^3. With phi = dt p / (rho h), times rho h^3/dt and rho h^4/dt they are newtons
     /// and newton metres. `star`: u*, the velocity before the projection; `diffusion`: nu dt / h^2 (neither
     /// is used without viscosity).
@@ -25,10 +25,14 @@ class VoxelForce {
               const BodyUniforms& uniforms, const std::vector<BodyState>& states, const Texture& target);
 
   private:
+    struct Body {
+        int index;
+        std::vector<int> parts;  ///< asked for
+        Pass force;
+    };
     Gpu* gpu_;
     double cell_m_;
-    std::vector<int> measured_;  ///< numbers of the bodies
-    Pass force_;
+    std::vector<Body> bodies_;
     std::variant<HalvingSum, LinearSum> sum_;
 };
 

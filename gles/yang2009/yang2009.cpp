@@ -36,10 +36,13 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
     }
     if (setup_.smoke) {
         const char* shader = "gles/yang2009/advect_smoke.frag";
-        advect_smoke_.emplace(gpu, "advect smoke", shader, u_.layout());
-        if (!smoke_balls_.empty())
-            smoke_sources_.emplace(gpu, "smoke sources", shader, u_.layout(),
-                                   Variant{.defines = {{"SOURCES", fmt::format("{}", smoke_balls_.size())}}});
+        Variant variant;
+        if (setup_.smoke->dissipation_1_s > 0.0) variant.defines.emplace_back("FADES", "");
+        advect_smoke_.emplace(gpu, "advect smoke", shader, u_.layout(), variant);
+        if (!smoke_balls_.empty()) {
+            variant.defines.emplace_back("SOURCES", fmt::format("{}", smoke_balls_.size()));
+            smoke_sources_.emplace(gpu, "smoke sources", shader, u_.layout(), variant);
+        }
     }
     reset();
 }

@@ -96,5 +96,23 @@ TEST(Plan, OfABodyThatIsNotMeasuredHasNoForce) {
     EXPECT_FALSE(plan.names("traction")) << plan.text;
 }
 
+TEST(Plan, OfABodyWhoseTorqueIsNotMeasuredHasNoTorqueAndTheSameForForce) {
+    const std::pair<std::string, long> kPresets[] = {{"fast", 2}, {"precise", 2}, {"yang2009", 4}};
+    for (const auto& [preset, sum] : kPresets) {  // passes that add up one of the two
+        const auto plan = [&](const std::string& change) {
+            return plan_of({"rest", "--set", kTiny, "--set", "solver.preset=\"" + preset + "\"", "--set",
+                            "body.ball." + change});
+        };
+        const PrintedPlan both = plan("force=true"), force = plan("torque=false"),
+                          torque = plan("force=false");
+        EXPECT_EQ(both.total[0] - force.total[0], sum) << force.text;
+        EXPECT_EQ(both.total[0] - torque.total[0], sum) << torque.text;
+        EXPECT_EQ(force.total[2], torque.total[2]);
+        EXPECT_LT(force.total[2], both.total[2]);
+        EXPECT_TRUE(both.names("pivot") && torque.names("pivot")) << torque.text;
+        EXPECT_FALSE(force.names("pivot")) << force.text;
+    }
+}
+
 }  // namespace
 }  // namespace eddy
