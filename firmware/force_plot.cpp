@@ -1,19 +1,15 @@
 #include "firmware/force_plot.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <sstream>
 #include <vector>
 
+#include "firmware/gnuplot.h"
 #include "firmware/text_file.h"
-
-extern char** environ;
 
 namespace eddy {
 namespace {
@@ -39,24 +35,6 @@ std::vector<Point> read_points(const std::filesystem::path& csv) {
         if (numbers >> fx >> fy >> fz) points.push_back({1e3 * x, 1e3 * y, 1e3 * z, fx, fy, fz});
     }
     return points;
-}
-
-/// In single quotes as gnuplot reads them: a quote is written twice.
-std::string quoted(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text) result += c == '\'' ? "''" : std::string(1, c);
-    return result + "'";
-}
-
-int run_gnuplot(const std::filesystem::path& script) {
-    std::string program = "gnuplot", argument = script.string();
-    char* arguments[] = {program.data(), argument.data(), nullptr};
-    pid_t child = 0;
-    if (posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ) != 0) return -1;
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 }  // namespace
@@ -102,14 +80,8 @@ std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& fo
                     "set view 70, 25\nset view equal xyz\nset xyplane relative 0\nset grid\nset key off\n{}"
                     "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"
                     "      $path using 1:2:3 with points pt 7 ps 0.5 lc rgb '#2050c0'\n",
-                    quoted(picture.string()), data, strongest, ranges));
-    if (const int status = run_gnuplot(script); status != 0) {
-        fmt::print(
-            stderr, "no plot of the motion: {}; the script is {}\n",
-            status < 0 || status == 127 ? "gnuplot is not installed (package gnuplot-nox)" : "gnuplot failed",
-            script.string());
-        return std::nullopt;
-    }
+                    in_gnuplot_quotes(picture.string()), data, strongest, ranges));
+    if (!run_gnuplot(script, "the motion")) return std::nullopt;
     return picture;
 }
 

@@ -143,15 +143,28 @@ struct CommandLine {
 
     void add_bench() {
         auto* verb =
-            app.add_subcommand("bench", "Time per stage, for each preset and grid, beside the 2009 method");
+            app.add_subcommand("bench",
+                               "Time per stage, for each preset and grid, beside the 2009 method; or with\n"
+                               "--effects what each effect of a scene costs");
         verb->option_defaults()->take_last();
-        verb->add_option("--scene", bench.scene, "shipped scene or file")->capture_default_str();
+        verb->add_option("SCENE,--scene", bench.scene,
+                         "shipped scene or file [bench, with --effects everything]");
         add_set(*verb, bench.set);
-        verb->add_option("--grid", bench.grids, "cells along the longest side of the tank, as 25,32,48")
+        verb->add_option("--grid", bench.grids,
+                         "cells along the longest side of the tank, as 64 or 25,32,48\n"
+                         "[25,32,48,64,96,128, with --effects the scene's own]")
             ->delimiter(',')
             ->take_all()
-            ->check(CLI::Range(8, 512))
-            ->capture_default_str();
+            ->check(CLI::Range(8, 512));
+        auto* effects = verb->add_flag(
+            "--effects", bench.effects,
+            "time, passes and bytes of each effect of the scene (smoke, viscosity, force, ...):\n"
+            "the whole scene, without each, each alone with the bodies, the bodies alone");
+        verb->add_flag("--csv", bench.csv, "print lines of CSV instead of tables; with --effects")
+            ->needs(effects);
+        verb->add_option("--plot", bench.plot,
+                         "also draw what the effects cost into this PNG; with --effects")
+            ->needs(effects);
         verb->add_option("--repeats", bench.repeats, "timed steps each")
             ->check(CLI::Range(1, 100000))
             ->capture_default_str();
@@ -194,7 +207,7 @@ struct CommandLine {
     int act() {
         if (app.got_subcommand("run")) return eddy::run(run);
         if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
-        if (app.got_subcommand("bench")) return eddy::bench(bench);
+        if (app.got_subcommand("bench")) return bench.effects ? bench_effects(bench) : eddy::bench(bench);
         if (app.got_subcommand("accuracy")) return eddy::validate(accuracy);
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);

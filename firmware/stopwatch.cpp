@@ -26,9 +26,13 @@ double median(std::vector<double> values) {
     return values.empty() ? 0.0 : at_place(std::move(values), middle);
 }
 
+double percentile(std::vector<double> values, std::size_t percent) {
+    const std::size_t rank = (percent * values.size() + 99) / 100;  // rounded up, counted from 1
+    return values.empty() ? 0.0 : at_place(std::move(values), std::max<std::size_t>(rank, 1) - 1);
+}
+
 double percentile_95(std::vector<double> values) {
-    const std::size_t rank = (95 * values.size() + 99) / 100;  // rounded up, counted from 1
-    return values.empty() ? 0.0 : at_place(std::move(values), rank - 1);
+    return percentile(std::move(values), 95);
 }
 
 Stopwatch::Moment Stopwatch::now() {

@@ -12,6 +12,7 @@ namespace eddy {
 /// however busy the machine is) and wall time.
 struct Timings {
     std::vector<double> cpu_ms, wall_ms;
+    std::vector<double> gpu_ms{};  ///< of the GPU alone, where that is measured
     bool empty() const { return wall_ms.empty(); }
 };
 
@@ -19,6 +20,8 @@ struct Timings {
 double median(std::vector<double> values);
 /// The least value that 95 % of them do not exceed; 0 of none.
 double percentile_95(std::vector<double> values);
+/// The same for any share of them in %.
+double percentile(std::vector<double> values, std::size_t percent);
 
 /// Times stages of a step while it is on: waits for the GPU at each stage's begin and end, so that a stage is
 /// charged with its own work and nothing else. That waiting costs; time whole steps without it.

@@ -19,6 +19,7 @@ namespace eddy {
 namespace {
 
 constexpr SolverPreset kPresets[] = {SolverPreset::Fast, SolverPreset::Precise, SolverPreset::Yang2009};
+constexpr int kGrids[] = {25, 32, 48, 64, 96, 128};
 constexpr int kFewest = 5;          // repeats that are made however long they take
 constexpr double kLongestS = 30.0;  // after this long on one preset and grid, no more repeats are begun
 constexpr int kWarmUp =
@@ -145,8 +146,10 @@ std::string to_json(const std::vector<Measurement>& all, const gles::Capabilitie
 }  // namespace
 
 int bench(const BenchOptions& options) {
-    const Scene scene = load_scene(options.scene, options.set).scene;
-    for (const int cells : options.grids) with_longest_side(scene, cells);
+    const Scene scene = load_scene(options.scene.empty() ? "bench" : options.scene, options.set).scene;
+    const std::vector<int> grids =
+        options.grids.empty() ? std::vector<int>(std::begin(kGrids), std::end(kGrids)) : options.grids;
+    for (const int cells : grids) with_longest_side(scene, cells);
     BodySchedule{scene};  // reads the paths
     if (!options.json.empty()) check_destination("--json", options.json);
     const std::unique_ptr<Graphics> graphics = open_headless();
@@ -162,8 +165,8 @@ int bench(const BenchOptions& options) {
         scene.title, options.repeats, kWarmUp);
     std::vector<Measurement> all;
     Progress progress("bench");
-    const double total = static_cast<double>(options.grids.size() * std::size(kPresets));
-    for (const int cells : options.grids) {
+    const double total = static_cast<double>(grids.size() * std::size(kPresets));
+    for (const int cells : grids) {
         const std::size_t first = all.size();
         for (const SolverPreset preset : kPresets) {
             all.push_back(measure(graphics->gpu, scene, cells, preset, options.repeats));

@@ -23,13 +23,17 @@ struct SimulateOptions {
 int simulate(const SimulateOptions& options);
 
 struct BenchOptions {
-    std::string scene = "bench";
+    std::string scene;  ///< empty: "bench", or "everything" for its effects
     std::vector<std::string> set;
-    std::vector<int> grids{25, 32, 48, 64, 96, 128};
+    std::vector<int> grids;  ///< cells along the longest side; empty: six, or for effects the scene's own
     int repeats = 30;
-    std::string json;  ///< file; empty: none
+    std::string json;      ///< file; empty: none
+    bool effects = false;  ///< what each effect of the scene costs, in place of stages and presets
+    bool csv = false;      ///< of effects: lines of CSV on standard output in place of tables
+    std::string plot;      ///< of effects: PNG file; empty: none
 };
 int bench(const BenchOptions& options);
+int bench_effects(const BenchOptions& options);
 
 struct AccuracyOptions {
     bool validate = false;           ///< run cases with known answers

@@ -233,7 +233,8 @@ TEST(ValidationScenes, AreNamedWithTheirFolderAndAreNoFiles) {
 }
 
 TEST(ShippedScenes, AreTheOnesForVisitorsAndForTimes) {
-    const std::vector<std::string_view> names = {"bench", "bubble", "float", "jet", "rest", "stir"};
+    const std::vector<std::string_view> names = {"bench", "bubble", "everything", "float",
+                                                 "jet",   "rest",   "stir"};
     EXPECT_EQ(shipped_scenes(), names);
 }
 

@@ -65,6 +65,10 @@ TEST_F(BadInput, OnTheCommandLineIsNamed) {
     expect_refused({"bench", "--grid", "3"}, {"--grid", "3"});
     expect_refused({"bench", "--grid", "16,x"}, {"--grid", "x"});
     expect_refused({"bench", "--repeats", "0"}, {"--repeats", "0"});
+    expect_refused({"bench", "--csv"}, {"--csv", "--effects"});
+    expect_refused({"bench", "--plot", "effects.png"}, {"--plot", "--effects"});
+    expect_refused({"bench", "--effects", "--grid", "16,32"}, {"--grid", "--effects", "one grid"});
+    expect_refused({"bench", "--effects", "--plot", "effects.jpg"}, {"--plot", "effects.jpg", ".png"});
 }
 
 TEST_F(BadInput, InASceneIsNamedWithFileLineAndColumn) {
@@ -129,6 +133,7 @@ TEST_F(BadInput, AboutDestinationsIsNamedBeforeAnyWork) {
                    {"--json", missing});
     expect_refused({"bench", "--set", tiny, "--grid", "16", "--json", folder.path().string()},
                    {"--json", folder.path().string(), "is a folder"});
+    expect_refused({"bench", "--effects", "--plot", missing + "/effects.png"}, {"--plot", missing});
     expect_refused({"run", "--seconds", "1", "--record", scene}, {"--record", scene});
     expect_refused({"run", "--seconds", "1", "--run-dir", scene}, {"--run-dir", scene});
 }

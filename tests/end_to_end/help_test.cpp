@@ -15,7 +15,7 @@ const std::vector<Verb> kVerbs{
      {"--scene", "--set", "--display", "--haptics", "--motion", "--motion-axes", "--seed", "--seconds",
       "--record", "--fps", "--clock", "--run-dir"}},
     {"simulate", {"SCENE", "--set", "--seconds", "--steps", "--out", "--plan"}},
-    {"bench", {"--scene", "--set", "--grid", "--repeats", "--json"}},
+    {"bench", {"SCENE", "--scene", "--set", "--grid", "--effects", "--csv", "--plot", "--repeats", "--json"}},
     {"accuracy", {"--validate", "--list", "--case", "--full", "--grid", "--set", "--json", "--csv"}},
     {"check-config", {"FILE"}},
     {"print-config", {"SCENE", "--set", "--origin"}},

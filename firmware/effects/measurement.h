@@ -1,0 +1,44 @@
+#pragma once
+#include <functional>
+
+#include "firmware/effects/study.h"
+#include "firmware/graphics.h"
+#include "firmware/plan.h"
+#include "firmware/stopwatch.h"
+
+namespace eddy::effects {
+
+/// The clock that tells best what a step costs: the GPU's own where it has one, or the processor's where the processor does
+/// the drawing, however busy the machine is.
+enum class Clock { Gpu, Cpu, Wall };
+const char* to_string(Clock clock);
+
+/// What each variant of a scene costs.
+struct Measurement {
+    EffectStudy study;
+    Clock clock = Clock::Wall;
+    struct Variant {
+        StepCost cost;
+        Timings times;  ///< of whole steps, one a round
+    };
+    std::vector<Variant> variants;  ///< as in the study
+
+    const Variant& with(const EffectAdded& added) const { return variants[added.with]; }
+    const Variant& without(const EffectAdded& added) const { return variants[added.without]; }
+};
+
+inline constexpr int kWarmUp =
+    5;  ///< rounds before timing starts: shaders are compiled, the pressure is warm
+
+using ShowProgress = std::function<void(double done, double total)>;
+
+/// Plans every variant, then lets all take a step in turn, round after round, so that a busy moment of the machine falls on
+/// all alike.
+Measurement measure(Graphics& graphics, EffectStudy study, int repeats, const ShowProgress& show);
+
+/// By one of the clocks.
+const std::vector<double>& by(Clock clock, const Timings& times);
+/// Round by round, what a step with the effect took longer than one without.
+std::vector<double> added_ms(const Measurement& measurement, const EffectAdded& added, Clock clock);
+
+}  // namespace eddy::effects

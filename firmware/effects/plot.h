@@ -1,0 +1,13 @@
+#pragma once
+#include <filesystem>
+
+#include "firmware/effects/measurement.h"
+
+namespace eddy::effects {
+
+/// Draws what each effect adds, in ms and in MB of textures, as bars into a PNG, by gnuplot; leaves the gnuplot script beside
+/// it. False if gnuplot is not installed or failed (it says so on standard error).
+bool plot(const Measurement& measurement, const gles::Capabilities& driver,
+          const std::filesystem::path& picture);
+
+}  // namespace eddy::effects
