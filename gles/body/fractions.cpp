@@ -35,36 +35,36 @@ int subcubes(const std::vector<BodySetup>& bodies) {
 /// The thinnest solid that closes a layer of faces wherever it lies: the cells that its two surfaces touch, and one more.
 constexpr double kThinCells = 2.7;
 
-bool any_thin(const std::vector<BodySetup>& bodies, double cell_m) {
+/// Whether a body is, or a mesh may be anywhere, thinner than that.
+bool may_be_thin(const std::vector<BodySetup>& bodies, double cell_m) {
     return std::any_of(bodies.begin(), bodies.end(), [&](const BodySetup& body) {
         return !body.inside_out && thickness_m(body.shape) < kThinCells * cell_m;
-    });
-}
-
-/// The same, but a mesh, which may be thin anywhere, only if it is so everywhere.
-bool any_thin_whole(const std::vector<BodySetup>& bodies, double cell_m) {
-    return std::any_of(bodies.begin(), bodies.end(), [&](const BodySetup& body) {
-        const Mesh* mesh = std::get_if<Mesh>(&body.shape);
-        const double thickness = mesh ? 2.0 * mesh->distance->depth_m() : thickness_m(body.shape);
-        return !body.inside_out && thickness < kThinCells * cell_m;
     });
 }
 
 Variant finest_variant(const std::vector<BodySetup>& bodies, double cell_m) {
     Variant v{.defines = {{"SUBCUBES", fmt::format("{}", subcubes(bodies))}},
               .declarations = shape_declarations(bodies)};
-    if (any_thin(bodies, cell_m)) v.defines.emplace_back("THIN", "");
+    if (may_be_thin(bodies, cell_m)) v.defines.emplace_back("THIN", "");
     return v;
 }
 
 Variant coarse_variant(const glm::ivec3& fine, const std::vector<BodySetup>& bodies, double cell_m) {
     Variant v{.layouts = {{"FINE", Faces4::layout(fine)}},
               .defines = {{"FINE_LAYERS", fmt::format("{}", fine.z + 1)}, {"FINE_CELLS", glsl(fine)}}};
-    if (any_thin(bodies, cell_m)) v.defines.emplace_back("THIN", "");
+    if (may_be_thin(bodies, cell_m)) v.defines.emplace_back("THIN", "");
     return v;
 }
 
 }  // namespace
+
+bool any_thin_body(const std::vector<BodySetup>& bodies, double cell_m) {
+    return std::any_of(bodies.begin(), bodies.end(), [&](const BodySetup& body) {
+        const Mesh* mesh = std::get_if<Mesh>(&body.shape);
+        const double thickness = mesh ? 2.0 * mesh->distance->depth_m() : thickness_m(body.shape);
+        return !body.inside_out && thickness < kThinCells * cell_m;
+    });
+}
 
 std::vector<Input> FaceFractions::inputs() const {
     return {{"ax", &x.texture()}, {"ay", &y.texture()}, {"az", &z.texture()}};
@@ -77,7 +77,7 @@ Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::
       finest_(gpu, "fractions", "gles/body/fractions.frag", Faces4::layout(grids[0]),
               finest_variant(bodies, cell_m)),
       sharpen_(gpu, "sharpen fractions", "gles/body/sharpen_fractions.frag", Faces4::layout(grids[0])),
-      are_thin_(any_thin_whole(bodies, cell_m)) {
+      are_thin_(any_thin_body(bodies, cell_m)) {
     for (const glm::ivec3& n : grids) levels_.push_back(new_fractions(gpu, n));
     for (std::size_t l = 0; l + 1 < grids.size(); ++l)
         coarsen_.emplace_back(gpu, fmt::format("coarsen fractions {}", l + 1),

@@ -15,6 +15,10 @@ struct FaceFractions {
     std::vector<Input> inputs() const;
 };
 
+/// Whether a body is so thin that a coarse grid may hold it in another place than the finest does. A mesh, which may be thin
+/// anywhere, counts if it is so everywhere.
+bool any_thin_body(const std::vector<BodySetup>& bodies, double cell_m);
+
 /// Face fractions on the finest grid and on the coarse grids of the pressure solver. Only the boxes where a
 /// body is or was are drawn each step; everywhere else the fractions stay 1.
 class Fractions {
@@ -27,7 +31,6 @@ class Fractions {
     void update(const BodyUniforms& bodies, const std::vector<Box>& boxes);
 
     const FaceFractions& level(std::size_t l) const { return levels_[l]; }
-    /// Whether a body is so thin that a coarse grid may hold it in another place than the finest does.
     bool are_thin() const { return are_thin_; }
 
   private:

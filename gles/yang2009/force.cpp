@@ -1,6 +1,6 @@
 #include "gles/yang2009/force.h"
 
-#include "gles/body/traction.h"
+#include "gles/fluid/traction.h"
 
 namespace eddy::gles {
 namespace {

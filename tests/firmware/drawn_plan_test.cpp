@@ -8,6 +8,7 @@
 #include "config/scene.h"
 #include "firmware/body_schedule.h"
 #include "firmware/fluid_setup.h"
+#include "gles/body/fractions.h"
 #include "gles/fluid/fluid.h"
 #include "tests/gles/gl_fixture.h"
 
@@ -139,6 +140,10 @@ bool corrects(const Scene& s) {
     return s.solver.advection ? s.solver.advection == AdvectionScheme::MacCormack
                               : s.solver.preset == SolverPreset::Precise;
 }
+bool thin(const Scene& s) {
+    const gles::FluidSetup setup = fluid_setup(s);
+    return gles::any_thin_body(setup.bodies, setup.cell_m);
+}
 bool always(const Scene&) {
     return true;
 }
@@ -193,13 +198,16 @@ const Caller kCallers[] = {
     {"heat sources", [](const Scene& s) { return any_source(s, &Scene::Source::temperature_k_per_s); }},
     {"imposed flow", [](const Scene& s) { return s.imposed.has_value(); }},
     {"jacobi", solved},
+    {"least residual", thin},
     {"owners", [](const Scene& s) { return s.outputs.force_methods; }},
     {"project", solved},
     {"project cut", any_body},
     {"prolong", solved},
     {"reduce diagnosis", always},
     {"reduce heat", warm},
+    {"reduce products", thin},
     {"reflect", second_order},
+    {"residual", thin},
     {"restrict residual", solved},
     {"sharpen fractions", any_body},
     {"smoke sources", [](const Scene& s) { return any_source(s, &Scene::Source::smoke_per_s); }},
