@@ -15,6 +15,9 @@ struct Graphics {
           context({display->egl_platform(), display->native_display(), display->native_window()}),
           gpu(context.capabilities()) {}
 
+    /// The processor does the drawing.
+    bool in_software() const { return display->native_display() == nullptr; }
+
     std::unique_ptr<Display> display;
     gles::Context context;
     gles::Gpu gpu;

@@ -145,7 +145,8 @@ struct CommandLine {
         auto* verb =
             app.add_subcommand("bench",
                                "Time per stage, for each preset and grid, beside the 2009 method; or with\n"
-                               "--effects what each effect of a scene costs");
+                               "--effects what each effect of a scene costs, with --paper the 2009 paper's\n"
+                               "figures");
         verb->option_defaults()->take_last();
         verb->add_option("SCENE,--scene", bench.scene,
                          "shipped scene or file [bench, with --effects everything]");
@@ -165,6 +166,10 @@ struct CommandLine {
         verb->add_option("--plot", bench.plot,
                          "also draw what the effects cost into this PNG; with --effects")
             ->needs(effects);
+        verb->add_option("--paper", bench.paper,
+                         "draw the 2009 paper's figures 8, 9, 10 and its Table I from this program's runs\n"
+                         "into this folder: force added up on the GPU and on the CPU")
+            ->excludes(effects);
         verb->add_option("--repeats", bench.repeats, "timed steps each")
             ->check(CLI::Range(1, 100000))
             ->capture_default_str();
@@ -207,7 +212,10 @@ struct CommandLine {
     int act() {
         if (app.got_subcommand("run")) return eddy::run(run);
         if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
-        if (app.got_subcommand("bench")) return bench.effects ? bench_effects(bench) : eddy::bench(bench);
+        if (app.got_subcommand("bench")) {
+            if (bench.effects) return bench_effects(bench);
+            return bench.paper.empty() ? eddy::bench(bench) : bench_paper(bench);
+        }
         if (app.got_subcommand("accuracy")) return eddy::validate(accuracy);
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace eddy {
 namespace {
@@ -20,6 +21,22 @@ double at_place(std::vector<double> values, std::size_t place) {
 }
 
 }  // namespace
+
+const char* to_string(CostClock clock) {
+    switch (clock) {
+        case CostClock::Gpu:
+            return "gpu";
+        case CostClock::Cpu:
+            return "cpu";
+        case CostClock::Wall:
+            return "wall";
+    }
+    throw std::logic_error("a clock without a name");
+}
+
+const std::vector<double>& by(CostClock clock, const Timings& times) {
+    return clock == CostClock::Gpu ? times.gpu_ms : clock == CostClock::Cpu ? times.cpu_ms : times.wall_ms;
+}
 
 double median(std::vector<double> values) {
     const std::size_t middle = values.size() / 2;

@@ -16,6 +16,12 @@ struct Timings {
     bool empty() const { return wall_ms.empty(); }
 };
 
+/// The clock that tells best what a step costs: the GPU's own where it has one, or the processor's where the processor does
+/// the drawing, however busy the machine is.
+enum class CostClock { Gpu, Cpu, Wall };
+const char* to_string(CostClock clock);
+const std::vector<double>& by(CostClock clock, const Timings& times);
+
 /// The value in the middle (of an even number: the upper of the two); 0 of none.
 double median(std::vector<double> values);
 /// The least value that 95 % of them do not exceed; 0 of none.

@@ -40,25 +40,12 @@ void time_step(Runner& runner, std::optional<gles::GpuTimer>& timer, Timings& ti
     if (timer) times.gpu_ms.push_back(timer->milliseconds().value_or(times.wall_ms.back()));
 }
 
-Clock best_clock(const Graphics& graphics) {
-    const bool in_software = graphics.display->native_display() == nullptr;
-    if (in_software) return Clock::Cpu;
-    return graphics.gpu.capabilities().timer_query ? Clock::Gpu : Clock::Wall;
+CostClock best_clock(const Graphics& graphics) {
+    if (graphics.in_software()) return CostClock::Cpu;
+    return graphics.gpu.capabilities().timer_query ? CostClock::Gpu : CostClock::Wall;
 }
 
 }  // namespace
-
-const char* to_string(Clock clock) {
-    switch (clock) {
-        case Clock::Gpu:
-            return "gpu";
-        case Clock::Cpu:
-            return "cpu";
-        case Clock::Wall:
-            return "wall";
-    }
-    throw std::logic_error("a clock without a name");
-}
 
 Measurement measure(Graphics& graphics, EffectStudy study, int repeats, const ShowProgress& show) {
     Measurement m{std::move(study), best_clock(graphics), {}};
@@ -84,11 +71,7 @@ Measurement measure(Graphics& graphics, EffectStudy study, int repeats, const Sh
     return m;
 }
 
-const std::vector<double>& by(Clock clock, const Timings& times) {
-    return clock == Clock::Gpu ? times.gpu_ms : clock == Clock::Cpu ? times.cpu_ms : times.wall_ms;
-}
-
-std::vector<double> added_ms(const Measurement& measurement, const EffectAdded& added, Clock clock) {
+std::vector<double> added_ms(const Measurement& measurement, const EffectAdded& added, CostClock clock) {
     const std::vector<double>& with = by(clock, measurement.with(added).times);
     const std::vector<double>& without = by(clock, measurement.without(added).times);
     std::vector<double> ms;

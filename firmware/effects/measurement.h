@@ -8,15 +8,10 @@
 
 namespace eddy::effects {
 
-/// The clock that tells best what a step costs: the GPU's own where it has one, or the processor's where the processor does
-/// the drawing, however busy the machine is.
-enum class Clock { Gpu, Cpu, Wall };
-const char* to_string(Clock clock);
-
 /// What each variant of a scene costs.
 struct Measurement {
     EffectStudy study;
-    Clock clock = Clock::Wall;
+    CostClock clock = CostClock::Wall;
     struct Variant {
         StepCost cost;
         Timings times;  ///< of whole steps, one a round
@@ -36,9 +31,7 @@ using ShowProgress = std::function<void(double done, double total)>;
 /// all alike.
 Measurement measure(Graphics& graphics, EffectStudy study, int repeats, const ShowProgress& show);
 
-/// By one of the clocks.
-const std::vector<double>& by(Clock clock, const Timings& times);
 /// Round by round, what a step with the effect took longer than one without.
-std::vector<double> added_ms(const Measurement& measurement, const EffectAdded& added, Clock clock);
+std::vector<double> added_ms(const Measurement& measurement, const EffectAdded& added, CostClock clock);
 
 }  // namespace eddy::effects

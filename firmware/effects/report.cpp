@@ -18,9 +18,9 @@ std::size_t widest(const EffectStudy& study) {
     return width;
 }
 
-std::vector<Clock> clocks_of(const Measurement& m) {
-    std::vector<Clock> clocks{Clock::Cpu, Clock::Wall};
-    if (!m.variants[0].times.gpu_ms.empty()) clocks.push_back(Clock::Gpu);
+std::vector<CostClock> clocks_of(const Measurement& m) {
+    std::vector<CostClock> clocks{CostClock::Cpu, CostClock::Wall};
+    if (!m.variants[0].times.gpu_ms.empty()) clocks.push_back(CostClock::Gpu);
     return clocks;
 }
 
@@ -39,7 +39,7 @@ std::string added_text(const Measurement& m, const EffectAdded& added) {
 std::string table_of_variants(const Measurement& m) {
     const std::size_t width = widest(m.study);
     std::string head, units;
-    for (const Clock clock : clocks_of(m)) {
+    for (const CostClock clock : clocks_of(m)) {
         head += fmt::format("{:>18}", fmt::format("{} ms", to_string(clock)));
         units += fmt::format("{:>9}{:>9}", "p50", "p95");
     }
@@ -50,7 +50,7 @@ std::string table_of_variants(const Measurement& m) {
     for (std::size_t v = 0; v < m.variants.size(); ++v) {
         const Measurement::Variant& variant = m.variants[v];
         text += fmt::format("{:<{}}", m.study.variants[v].name, width);
-        for (const Clock clock : clocks_of(m)) {
+        for (const CostClock clock : clocks_of(m)) {
             const std::vector<double>& ms = by(clock, variant.times);
             text += fmt::format("{:>9.2f}{:>9.2f}", median(ms), percentile_95(ms));
         }
@@ -113,7 +113,7 @@ std::string csv_of(const Measurement& m) {
     std::string text = "effect,added_to,with,without";
     for (const char* count : {"passes", "uniforms", "texels", "bytes_written", "fetches", "texture_bytes"})
         text += fmt::format(",{0}_with,{0}_without", count);
-    for (const Clock clock : clocks_of(m))
+    for (const CostClock clock : clocks_of(m))
         text += fmt::format(
             ",{0}_ms_with_p50,{0}_ms_with_p95,{0}_ms_without_p50,{0}_ms_without_p95,{0}_ms_added_p25,"
             "{0}_ms_added_p50,{0}_ms_added_p75",
@@ -126,7 +126,7 @@ std::string csv_of(const Measurement& m) {
         text += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{}", a.work.passes, b.work.passes,
                             a.work.uniforms, b.work.uniforms, a.work.texels, b.work.texels, a.work.bytes,
                             b.work.bytes, a.work.fetches, b.work.fetches, a.texture_bytes, b.texture_bytes);
-        for (const Clock clock : clocks_of(m)) {
+        for (const CostClock clock : clocks_of(m)) {
             const std::vector<double>&with = by(clock, m.with(added).times),
                   &without = by(clock, m.without(added).times), ms = added_ms(m, added, clock);
             text += fmt::format(",{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g}", median(with),

@@ -8,7 +8,7 @@ namespace {
 
 nlohmann::ordered_json json_of(const Timings& times) {
     nlohmann::ordered_json j;
-    for (const Clock clock : {Clock::Cpu, Clock::Wall, Clock::Gpu}) {
+    for (const CostClock clock : {CostClock::Cpu, CostClock::Wall, CostClock::Gpu}) {
         const std::vector<double>& ms = by(clock, times);
         if (!ms.empty())
             j[to_string(clock)] = {
@@ -27,7 +27,7 @@ nlohmann::ordered_json json_of(const StepCost& cost) {
 nlohmann::ordered_json json_of(const Measurement& m, const EffectAdded& added) {
     nlohmann::ordered_json j{{"with", m.study.variants[added.with].name},
                              {"without", m.study.variants[added.without].name}};
-    for (const Clock clock : {Clock::Cpu, Clock::Wall, Clock::Gpu}) {
+    for (const CostClock clock : {CostClock::Cpu, CostClock::Wall, CostClock::Gpu}) {
         const std::vector<double> ms = added_ms(m, added, clock);
         if (!ms.empty())
             j["added_ms"][to_string(clock)] = {

@@ -31,9 +31,11 @@ struct BenchOptions {
     bool effects = false;  ///< what each effect of the scene costs, in place of stages and presets
     bool csv = false;      ///< of effects: lines of CSV on standard output in place of tables
     std::string plot;      ///< of effects: PNG file; empty: none
+    std::string paper;     ///< folder for the figures of the 2009 paper in place of tables; empty: none
 };
 int bench(const BenchOptions& options);
 int bench_effects(const BenchOptions& options);
+int bench_paper(const BenchOptions& options);
 
 struct AccuracyOptions {
     bool validate = false;           ///< run cases with known answers

@@ -53,6 +53,7 @@ void VoxelForce::draw(const Field<Cells>& phi, const Field<Cells>& star, float d
         std::vector<Uniform> values = uniforms.uniforms();
         values.insert(values.end(), {{"pivot", pivot}, {"body", body.index}, {"diffusion", diffusion}});
         body.force.draw(inputs, values, outputs);
+        Gpu::Stage stage(*gpu_, "force integral");
         for (std::size_t i = 0; i < fields.size(); ++i) sum(fields[i], 2 * body.index + body.parts[i]);
     }
 }

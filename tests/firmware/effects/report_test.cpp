@@ -20,7 +20,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 /// viscosity always costs 6 ms and smoke 1, 1 and 4.
 Measurement small_measurement() {
     Measurement m{study_effects(read_scene("[smoke]\n[fluid]\nviscosity_pa_s = 0.1\n", "t.toml").scene),
-                  Clock::Cpu,
+                  CostClock::Cpu,
                   {}};
     const std::vector<double> cpu[] = {{10, 11, 12}, {3, 3, 3}, {4, 5, 6}, {9, 10, 8}};
     const std::int64_t passes[] = {50, 17, 20, 47};
@@ -32,9 +32,9 @@ Measurement small_measurement() {
 
 TEST(EffectReport, AddsUpRoundByRound) {
     const Measurement m = small_measurement();
-    EXPECT_EQ(added_ms(m, m.study.rows[0].to_whole, Clock::Cpu), (std::vector<double>{6, 6, 6}));
-    EXPECT_EQ(added_ms(m, m.study.rows[1].to_whole, Clock::Cpu), (std::vector<double>{1, 1, 4}));
-    EXPECT_TRUE(added_ms(m, m.study.rows[1].to_whole, Clock::Gpu).empty());
+    EXPECT_EQ(added_ms(m, m.study.rows[0].to_whole, CostClock::Cpu), (std::vector<double>{6, 6, 6}));
+    EXPECT_EQ(added_ms(m, m.study.rows[1].to_whole, CostClock::Cpu), (std::vector<double>{1, 1, 4}));
+    EXPECT_TRUE(added_ms(m, m.study.rows[1].to_whole, CostClock::Gpu).empty());
 }
 
 TEST(EffectReport, HasALineForEachVariantAndEachEffectTheCostliestFirst) {
@@ -55,7 +55,7 @@ TEST(EffectReport, HasALineForEachVariantAndEachEffectTheCostliestFirst) {
 
 TEST(EffectReport, OfEffectsThatNeedOthersSaysWhatGoesWithThem) {
     Measurement m{
-        study_effects(read_scene("[smoke]\ndissipation_1_s = 1\n", "t.toml").scene), Clock::Cpu, {}};
+        study_effects(read_scene("[smoke]\ndissipation_1_s = 1\n", "t.toml").scene), CostClock::Cpu, {}};
     m.variants.resize(m.study.variants.size(), {{}, {{1.0}, {1.0}}});
     EXPECT_THAT(table_of_effects(m), HasSubstr("smoke left out takes along: smoke fading\n"));
 }

@@ -1,0 +1,110 @@
+#include "firmware/paper/figures.h"
+
+#include <fmt/format.h>
+
+#include "firmware/gnuplot.h"
+#include "firmware/text_file.h"
+
+namespace eddy::paper {
+namespace {
+
+const char* const kStyle =
+    "set terminal pngcairo size 900,560 font 'sans,11' noenhanced\n"
+    "set border 3 lc rgb '#404040'\nset xtics nomirror\nset ytics nomirror\nset grid ytics lc rgb "
+    "'#d0d0d0'\n";
+
+// Renderer, clock, table.
+constexpr const char* kPage =
+    R"(## The figures of the 2009 paper, from this program
+
+Yang, Lu, Safonova and Kuchenbecker compare two ways to add up the force of every cell: in a tree of passes on the GPU, reading
+one texel back, or on the CPU, reading all of them back. `eddy bench --paper` runs both in the preset `yang2009`, which is their
+pipeline, here on {0}. Figure 8 is of wall time, figures 9 and 10 of {1} time with the GPU drained before and after each part;
+all are medians. Where a software rasteriser draws, both ways run on the same processor: what differs is the passes and the
+copying, not the way over a bus.
+
+![updates a second](figure_8.png)
+
+![a step by part](figure_9.png)
+
+![the sum alone](figure_10.png)
+
+Their Table I, with our rows below theirs:
+
+{2})";
+
+/// Columns: cells; whole step, fluid, force, integral with the sum on the GPU; the same with it on the CPU [ms].
+std::string data(const std::vector<ForceCost>& costs, const char* separator) {
+    std::string text;
+    for (const ForceCost& c : costs) {
+        text += fmt::format("{}", c.cells);
+        for (const ForceCost::Parts& p : {c.on_gpu, c.on_cpu})
+            for (const double ms : {p.step, p.fluid, p.force, p.integral})
+                text += fmt::format("{}{:.5g}", separator, ms);
+        text += "\n";
+    }
+    return text;
+}
+
+bool draw(const std::filesystem::path& folder, const std::string& name, const std::string& title,
+          const std::vector<ForceCost>& costs, const std::string& commands) {
+    const std::filesystem::path script = folder / (name + ".gnuplot");
+    replace_text_file(
+        script, fmt::format("{}set output {}\n$costs << EOD\n{}EOD\nset title {} noenhanced\n{}", kStyle,
+                            in_gnuplot_quotes((folder / (name + ".png")).string()), data(costs, " "),
+                            in_gnuplot_quotes(title), commands));
+    return run_gnuplot(script, name);
+}
+
+std::string table(const std::vector<Implementation>& ours) {
+    std::string text = "| implementation | grid | updates a second | on |\n|---|---|---|---|\n";
+    for (const auto* rows : {&published(), &ours})
+        for (const Implementation& row : *rows)
+            text += fmt::format("| {} | {} | {:.3g} | {} |\n", row.name, row.grid, row.updates_per_s,
+                                row.hardware);
+    return text;
+}
+
+}  // namespace
+
+const std::vector<Implementation>& published() {
+    static const std::vector<Implementation> rows{
+        {"Baxter and Lin 2004, in the plane", "64 × 64", 60.0, "not said"},
+        {"Mora and Lee 2008, in the plane", "15 × 15 (× 15)", 30.0, "not said"},
+        {"Yang et al. 2009", "70 × 70 × 70", 55.0, "NVIDIA 8800 GT, Intel Q6600"}};
+    return rows;
+}
+
+bool draw_figures(const std::filesystem::path& folder, const std::vector<ForceCost>& costs,
+                  const std::vector<Implementation>& ours, const std::string& renderer, CostClock clock) {
+    replace_text_file(folder / "paper.csv",
+                      "cells,step_gpu_ms,fluid_gpu_ms,force_gpu_ms,integral_gpu_ms,step_cpu_ms,fluid_cpu_ms,"
+                      "force_cpu_ms,integral_cpu_ms\n" +
+                          data(costs, ","));
+    const std::string cells = "set xlabel 'cells along each side'\n";
+    const std::string ms = fmt::format("set ylabel '{} time [ms a step]'\n", to_string(clock));
+    bool all = draw(folder, "figure_8", "Updates a second, force added up on GPU and CPU: " + renderer, costs,
+                    cells +
+                        "set ylabel 'updates a second'\nset logscale y\nset key top right\n"
+                        "plot $costs using 1:(1000/$2) with linespoints lw 2 pt 7 lc rgb '#2050c0' "
+                        "title 'GPU', '' using 1:(1000/$6) with linespoints lw 2 pt 5 lc rgb '#e09020' "
+                        "title 'CPU'\n");
+    all &= draw(folder, "figure_9",
+                "A step by part; left bars: force added up on GPU, right: on CPU; " + renderer, costs,
+                cells + ms +
+                    "set key top left\nset style fill solid 0.85 noborder\nset boxwidth 0.35\n"
+                    "set xrange [-0.6:*]\nset yrange [0:*]\n"
+                    "plot $costs using ($0-0.19):($3+$4):xtic(1) with boxes lc rgb '#e09020' title 'force', "
+                    "'' using ($0-0.19):3 with boxes lc rgb '#2050c0' title 'fluid', "
+                    "'' using ($0+0.19):($7+$8) with boxes lc rgb '#e09020' notitle, "
+                    "'' using ($0+0.19):7 with boxes lc rgb '#2050c0' notitle\n");
+    all &= draw(folder, "figure_10", "Adding up the force alone: " + renderer, costs,
+                cells + ms +
+                    "set logscale y\nset key top left\n"
+                    "plot $costs using 1:5 with linespoints lw 2 pt 7 lc rgb '#2050c0' title 'GPU', "
+                    "'' using 1:9 with linespoints lw 2 pt 5 lc rgb '#e09020' title 'CPU'\n");
+    replace_text_file(folder / "paper.md", fmt::format(kPage, renderer, to_string(clock), table(ours)));
+    return all;
+}
+
+}  // namespace eddy::paper
