@@ -51,6 +51,8 @@ class Laboratory {
     Run start() { return start(scene_); }
     /// A variation of it.
     Run start(const Scene& scene) { return Run(gpu_, scene, step_ms_, progress_); }
+    /// Where it runs.
+    gles::Gpu& gpu() { return gpu_; }
     /// Of every step of every run.
     const std::vector<double>& step_ms() const { return step_ms_; }
 

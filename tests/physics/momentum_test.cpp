@@ -1,9 +1,9 @@
 #include <cmath>
 #include <functional>
 
+#include "gles/fluid/face_shares.h"
 #include "gles/fluid/transport.h"
 #include "gles/grid_io.h"
-#include "tests/physics/face_shares.h"
 #include "tests/physics/tank.h"
 
 namespace eddy::gles {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/physics/face_shares.h"
+#include "gles/fluid/face_shares.h"
 #include "tests/physics/tank.h"
 
 namespace eddy::gles {

@@ -1,4 +1,4 @@
-#include "tests/physics/face_shares.h"
+#include "gles/fluid/face_shares.h"
 
 #include "gles/body/fractions.h"
 #include "gles/fluid/pressure.h"
