@@ -59,6 +59,7 @@ std::vector<const Case*> cases_named(const std::string& name);
 
 // The pages, one file for each family.
 std::vector<Case> taylor_green_cases();   // A1, A2
+std::vector<Case> exact_flow_cases();     // A3, A4
 std::vector<Case> rest_cases();           // A7
 std::vector<Case> internal_wave_cases();  // A8
 std::vector<Case> cavity_cases();         // A11
