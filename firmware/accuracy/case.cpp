@@ -15,7 +15,7 @@ const std::vector<Case>& all_cases() {
              {taylor_green_cases, exact_flow_cases, rest_cases, internal_wave_cases, cavity_cases,
               viscous_flow_cases, deformation_cases, smoke_mass_cases, inflow_cases, confinement_cases,
               archimedes_cases, added_mass_cases, creeping_flow_cases, swinging_ball_cases, sphere_drag_cases,
-              ripple_cases, free_ball_cases, three_ways_cases})
+              disk_and_cube_cases, ripple_cases, free_ball_cases, three_ways_cases})
             for (Case& one : page()) all.push_back(std::move(one));
         return all;
     }();

@@ -73,6 +73,7 @@ std::vector<Case> added_mass_cases();     // B2
 std::vector<Case> creeping_flow_cases();  // B3, B4
 std::vector<Case> swinging_ball_cases();  // B5
 std::vector<Case> sphere_drag_cases();    // B6
+std::vector<Case> disk_and_cube_cases();  // B7
 std::vector<Case> ripple_cases();         // B8.7
 std::vector<Case> free_ball_cases();      // B10
 std::vector<Case> three_ways_cases();     // F1
