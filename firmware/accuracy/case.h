@@ -39,7 +39,7 @@ struct Quantity {
 
 /// One page of the textbook: a scene, how it is refined, and what comes out of it.
 struct Case {
-    std::string name = {};              ///< "B2-shell"; what is before the dash is its family
+    std::string name = {};              ///< "B2-shell"; what is before a dash or a point is its family
     std::string title = {};             ///< one line
     std::string scene = {};             ///< a shipped one: "validation/B2"
     std::vector<std::string> set = {};  ///< what is changed in it, as --set takes it
@@ -54,7 +54,7 @@ struct Case {
 /// Every case, by name.
 const std::vector<Case>& all_cases();
 
-/// The cases that a user means by "B2-shell" or by "B2" (the whole family). Throws InputError that lists the names.
+/// The cases that a user means by "B2-shell", by "B2" or by "B8" (whole families). Throws InputError that lists the names.
 std::vector<const Case*> cases_named(const std::string& name);
 
 // The pages, one file for each family.
@@ -74,6 +74,9 @@ std::vector<Case> creeping_flow_cases();  // B3, B4
 std::vector<Case> swinging_ball_cases();  // B5
 std::vector<Case> sphere_drag_cases();    // B6
 std::vector<Case> disk_and_cube_cases();  // B7
+std::vector<Case> balance_cases();        // B8.1, B8.2, B8.3
+std::vector<Case> invariance_cases();     // B8.4, B8.5, B8.8, B8.9, B8.11, B8.12
+std::vector<Case> reciprocity_cases();    // B8.13
 std::vector<Case> ripple_cases();         // B8.7
 std::vector<Case> free_ball_cases();      // B10
 std::vector<Case> three_ways_cases();     // F1

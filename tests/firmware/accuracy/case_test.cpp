@@ -51,6 +51,9 @@ TEST(Cases, AreFoundByNameAndByFamily) {
     EXPECT_EQ(cases_named("B2-shell").front()->name, "B2-shell");
     EXPECT_EQ(cases_named("B2").size(), 2u);
     EXPECT_EQ(cases_named("A2").size(), 1u);
+    EXPECT_EQ(cases_named("B8.13").size(), 2u);
+    EXPECT_EQ(cases_named("B8.1").size(), 1u);
+    EXPECT_GT(cases_named("B8").size(), 10u);
 }
 
 TEST(Cases, ThatDoNotExistAreAnsweredWithTheNearest) {

@@ -16,6 +16,12 @@ struct KnownMiss {
 const std::vector<KnownMiss> kKnownMisses{
     {"A16-precise", "M / M_0 - 1", 0.08},  // neither transport conserves smoke; measured: 5.7 % more
     {"A16-fast", "M / M_0 - 1", 0.15},     // 11 % less
+    // Two cycles leave that much divergence; with eight it is 5e-8.
+    {"B8.1", "their sum / the latter, fast", 3e-4},  // measured: 1.3e-4
+    // The three faces of a cell are carried along one path (gles/fluid/setup.h); with MacCormack it is 5e-4, and 2e-6 with 14
+    // cycles.
+    {"B8.4", "turned, dF / F, fast", 0.08},    // 5.7 %
+    {"B8.4", "mirrored, dF / F, fast", 0.05},  // 3.3 %
 };
 
 bool is_tolerated(const std::string& one, const Quantity& quantity, const Reading& reading) {
