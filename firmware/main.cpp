@@ -180,8 +180,9 @@ struct CommandLine {
         auto* verb = app.add_subcommand(
             "accuracy", "Cases with known answers: how far off the solver is, at what order, at what cost");
         verb->option_defaults()->take_last();
-        verb->add_flag("--validate", accuracy.validate, "run the cases; exit status 1 if a limit is missed");
-        verb->add_flag("--list", accuracy.list, "list the cases and their grids");
+        auto* validate = verb->add_flag("--validate", accuracy.validate,
+                                        "run the cases; exit status 1 if a limit is missed");
+        auto* list = verb->add_flag("--list", accuracy.list, "list the cases and their grids");
         verb->add_option("--case", accuracy.cases, "only these: a case or a family, as B2-shell or B2,B3")
             ->delimiter(',')
             ->take_all();
@@ -196,6 +197,36 @@ struct CommandLine {
         add_set(*verb, accuracy.set);
         verb->add_option("--json", accuracy.json, "also write the figures to this file");
         verb->add_flag("--csv", accuracy.csv, "print lines of CSV instead of tables");
+        auto* sweep = verb->add_flag(
+            "--sweep", accuracy.sweep,
+            "what accuracy costs: error and time per step over grids, time steps, methods and iterations, "
+            "for the\n"
+            "cases B2, B3, B8.7 and A1; tables and plots go to --out (some ten minutes; --full: a day)");
+        verb->add_option(
+                "--shard", accuracy.shard,
+                "of a sweep, only part I of N: give each machine its own part and --out, then --merge")
+            ->type_name("I/N")
+            ->needs(sweep);
+        auto* merge = verb->add_option("--merge", accuracy.merge,
+                                       "put the parts of a sweep together: the folders they were written to")
+                          ->type_name("FOLDER...")
+                          ->take_all()
+                          ->expected(1, 100000);
+        auto* out = verb->add_option("--out", accuracy.out,
+                                     "folder for accuracy.csv, accuracy.json, report.txt, plots");
+        sweep->needs(out);
+        merge->needs(out);
+        for (CLI::Option* other : {validate, list, verb->get_option("--set"), verb->get_option("--json"),
+                                   verb->get_option("--csv")}) {
+            sweep->excludes(other);
+            merge->excludes(other);
+        }
+        merge->excludes(sweep);
+        verb->footer(
+            "The forces a hand feels, exact or fast:\n"
+            "  eddy accuracy --sweep --out sweep                      all of it here\n"
+            "  eddy accuracy --sweep --full --shard 3/8 --out part3   a part for a batch job\n"
+            "  eddy accuracy --merge part1 part2 part3 --out sweep    tables and plots of all parts");
     }
 
     /// CLI11 would call an unknown verb a missing one.
@@ -209,6 +240,11 @@ struct CommandLine {
         throw InputError(fmt::format("eddy: there is no verb '{}'; there are {}", argv[1], verbs));
     }
 
+    int act_on_accuracy() {
+        if (!accuracy.merge.empty()) return merge_sweeps(accuracy.merge, accuracy.out);
+        return accuracy.sweep ? sweep_accuracy(accuracy) : validate(accuracy);
+    }
+
     int act() {
         if (app.got_subcommand("run")) return eddy::run(run);
         if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
@@ -216,7 +252,7 @@ struct CommandLine {
             if (bench.effects) return bench_effects(bench);
             return bench.paper.empty() ? eddy::bench(bench) : bench_paper(bench);
         }
-        if (app.got_subcommand("accuracy")) return eddy::validate(accuracy);
+        if (app.got_subcommand("accuracy")) return act_on_accuracy();
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);
     }

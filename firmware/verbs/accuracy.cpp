@@ -42,7 +42,9 @@ int validate(const AccuracyOptions& options) {
         return 0;
     }
     if (!options.validate)
-        throw InputError("eddy: accuracy: say --validate to run cases, or --list to see them");
+        throw InputError(
+            "eddy: accuracy: say --validate to run cases, --list to see them, or --sweep to hold error "
+            "against time");
     const std::vector<Task> tasks = tasks_of(options);
     if (!options.json.empty()) check_destination("--json", options.json);
     const std::unique_ptr<Graphics> graphics = open_headless();

@@ -46,9 +46,15 @@ struct AccuracyOptions {
     std::vector<std::string> set;    ///< key=value, after what the case itself sets
     std::string json;                ///< file; empty: none
     bool csv = false;                ///< lines of CSV on standard output in place of tables
+    bool sweep = false;  ///< hold errors against time, over every knob; with full, cases and grids
+    std::string shard;   ///< "3/8": only that part of the sweep; empty: all of it
+    std::vector<std::string> merge;  ///< folders of all parts of a sweep, to be put together
+    std::string out;                 ///< folder for a sweep
 };
 /// 1 too if a limit was missed.
 int validate(const AccuracyOptions& options);
+int sweep_accuracy(const AccuracyOptions& options);
+int merge_sweeps(const std::vector<std::string>& folders, const std::string& out);
 
 enum class ClockChoice { Real, Stepped };
 

@@ -1,0 +1,131 @@
+#include "firmware/accuracy/sweep/problem.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "config/diagnostic.h"
+#include "config/nearest.h"
+#include "firmware/accuracy/study.h"
+#include "firmware/input_error.h"
+#include "gles/body/mass_properties.h"
+
+namespace eddy::accuracy::sweep {
+namespace {
+
+/// The shipped case of this name, with time steps as it has them.
+const Case& shipped(const std::string& name) {
+    return *cases_named(name).at(0);
+}
+
+/// The greater of two errors; not a number if either is none.
+double worse(double a, double b) {
+    return std::isnan(a) || a >= b ? a : b;
+}
+
+/// The greatest error of these quantities of a shipped case.
+double worst_of(const Case& one, Laboratory& lab, std::initializer_list<std::size_t> quantities) {
+    const std::vector<double> measured = one.measure(lab);
+    double worst = 0.0;
+    for (const std::size_t q : quantities)
+        worst = worse(worst, error_of(one.quantities.at(q), measured.at(q)));
+    return worst;
+}
+
+glm::dvec3 force_on_first_body(const Run& run, const gles::StepResult& result, ForceWay way) {
+    switch (way) {
+        case ForceWay::Surface:
+            return result.loads.at(0).force_n;
+        case ForceWay::Box:
+            return run.fluid().force_methods().at(0).box_n;
+        case ForceWay::Impulse:
+            return run.fluid().force_methods().at(0).impulse_n;
+    }
+    throw std::logic_error("a way without a force");
+}
+
+/// A ball at rest in water at rest moves off at U within one step: the water it takes along is pushed by
+/// F dt = -C_m rho V U. No step before it has prepared the pressure. The worst of places along a diagonal through one
+/// cell; C_m hardly changes by that (image dipoles: 1e-4).
+double set_off(Laboratory& lab, const Setting& setting) {
+    constexpr int kPlaces = 4;
+    constexpr double kAddedMass = 0.50730;  // case B2-box
+    double worst = 0.0;
+    for (int i = 0; i < kPlaces; ++i) {
+        Scene scene = lab.scene();
+        Scene::Body& ball = scene.bodies[0];
+        ball.centre_m += scene.tank.cell_m() * i / kPlaces * glm::dvec3(1.0, 0.7, 0.4);
+        ball.velocity_m_s = {0.001, 0.0, 0.0};
+        ball.acceleration_m_s2 = glm::dvec3(0.0);
+        Run run = lab.start(scene);
+        const glm::dvec3 force = force_on_first_body(run, run.step(), setting.force);
+        const double volume = gles::mass_properties(run.setup().bodies[0].shape).volume_m3;
+        const glm::dvec3 exact =
+            -kAddedMass * scene.fluid.density_kg_m3 * volume / run.dt_s() * ball.velocity_m_s;
+        worst = worse(worst, std::abs(glm::dot(force, exact) / glm::dot(exact, exact) - 1.0));
+    }
+    return worst;
+}
+
+}  // namespace
+
+const std::vector<Problem>& all_problems() {
+    static const std::vector<Problem> problems{
+        {.name = "B2",
+         .title = "a ball at rest, radius L/10, sets off in water: first step, worst of 4 places in a cell",
+         .error = "force",
+         .of = shipped("B2-box"),
+         .quick = {24, 32, 48, 64},
+         .full = {16, 24, 32, 48, 64, 96, 128},
+         .thresholds =
+             {{0.10, "10 %"}, {kForceJnd, "7 % (hand)"}, {0.05, "5 %"}, {0.02, "2 %"}, {0.01, "1 %"}},
+         .hand = kForceJnd,
+         .measure = set_off},
+        {.name = "B3",
+         .title = "a ball, radius L/5, is drawn through glycerine: steady drag, worse of 2 places in a cell",
+         .error = "force",
+         .of = shipped("B3"),
+         .quick = {20, 32, 48},
+         .full = {16, 20, 25, 32, 48, 64},
+         .thresholds = {{kViscosityJnd, "19 % (hand)"},
+                        {0.10, "10 %"},
+                        {kForceJnd, "7 %"},
+                        {0.05, "5 %"},
+                        {0.02, "2 %"},
+                        {0.01, "1 %"}},
+         .hand = kViscosityJnd,
+         .measure =
+             [](Laboratory& lab, const Setting&) {
+                 return worst_of(shipped("B3"), lab, {0, 1});
+             }},
+        {.name = "B8.7",
+         .title = "a ball glides through water: trembling of its drag coefficient over the cells",
+         .error = "drag coefficient, rms",
+         .of = shipped("B8.7-precise"),
+         .quick = {48},
+         .full = {48, 72, 96},
+         .measure = [](Laboratory& lab,
+                       const Setting&) { return worst_of(shipped("B8.7-precise"), lab, {0}); }},
+        {.name = "A1",
+         .title = "vortices of Taylor and Green at Re 10 die away too fast: numerical over true viscosity",
+         .error = "viscosity",
+         .of = shipped("A1-courant"),
+         .quick = {16, 32, 64},
+         .full = {16, 32, 64, 128},
+         .measure = [](Laboratory& lab, const Setting&) {
+             return worst_of(shipped("A1-courant"), lab, {1});
+         }}};
+    return problems;
+}
+
+const Problem& problem_named(const std::string& name) {
+    std::vector<std::string_view> names;
+    for (const Problem& problem : all_problems()) {
+        if (problem.name == name) return problem;
+        names.push_back(problem.name);
+    }
+    throw InputError(fmt::format("--case {}: there is no such case in a sweep; nearest first: {}",
+                                 in_quotes(name), listed(nearest_first(name, names))));
+}
+
+}  // namespace eddy::accuracy::sweep
