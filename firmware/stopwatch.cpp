@@ -68,9 +68,19 @@ Stopwatch::Stopwatch(gles::Gpu& gpu) : gpu_(gpu) {
         begun_.pop_back();
         const std::string name(stage);
         if (!timings_.contains(name)) order_.push_back(name);
-        timings_[name].cpu_ms.push_back(end.cpu_ms - begin.cpu_ms);
-        timings_[name].wall_ms.push_back(end.wall_ms - begin.wall_ms);
+        Timings& t = timings_[name];
+        if (sampled_.insert(name).second) {
+            t.cpu_ms.push_back(0.0);
+            t.wall_ms.push_back(0.0);
+        }
+        t.cpu_ms.back() += end.cpu_ms - begin.cpu_ms;
+        t.wall_ms.back() += end.wall_ms - begin.wall_ms;
     });
+}
+
+void Stopwatch::set_on(bool on) {
+    on_ = on;
+    if (on) sampled_.clear();
 }
 
 Stopwatch::~Stopwatch() {

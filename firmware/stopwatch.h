@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,8 @@ class Stopwatch {
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
-    void set_on(bool on) { on_ = on; }
+    /// Turned on, it adds what each stage takes to one sample, however often it runs; turned on again, to the next.
+    void set_on(bool on);
     /// Stages in the order they first ran.
     const std::vector<std::string>& stages() const { return order_; }
     const Timings& of(const std::string& stage) const { return timings_.at(stage); }
@@ -55,6 +57,7 @@ class Stopwatch {
     std::vector<std::string> order_;
     std::map<std::string, Timings> timings_;
     std::vector<Moment> begun_;
+    std::set<std::string> sampled_;  ///< stages that ran since it was turned on
 };
 
 }  // namespace eddy

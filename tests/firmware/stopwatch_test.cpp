@@ -33,18 +33,20 @@ TEST(Percentile95, IsTheLeastValueThatSoManyDoNotExceed) {
 
 using StopwatchTest = gles::GlTest;
 
-TEST_F(StopwatchTest, TimesStagesWhileItIsOnInTheOrderTheyFirstRan) {
+TEST_F(StopwatchTest, TimesEachStageOnceAStepWhileItIsOnInTheOrderTheyFirstRan) {
     Stopwatch stopwatch(gpu);
     const auto step = [&] {
         { const gles::Gpu::Stage stage(gpu, "second in the alphabet"); }
         { const gles::Gpu::Stage stage(gpu, "first"); }
+        { const gles::Gpu::Stage stage(gpu, "first"); }
     };
     step();
     EXPECT_TRUE(stopwatch.stages().empty());
-    stopwatch.set_on(true);
-    step();
-    step();
-    stopwatch.set_on(false);
+    for (int i = 0; i < 2; ++i) {
+        stopwatch.set_on(true);
+        step();
+        stopwatch.set_on(false);
+    }
     step();
     EXPECT_EQ(stopwatch.stages(), (std::vector<std::string>{"second in the alphabet", "first"}));
     EXPECT_EQ(stopwatch.of("first").wall_ms.size(), 2u);

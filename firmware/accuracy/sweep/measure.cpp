@@ -51,8 +51,10 @@ void time_steps(gles::Gpu& gpu, const Scene& scene, bool stages, Measurement& m)
     if (!gpu_ms.empty()) m.gpu_ms = spread(gpu_ms);
     if (!stages) return;
     Stopwatch stopwatch(gpu);
-    stopwatch.set_on(true);
-    for (int i = 0; i < kRepeats; ++i) step();
+    for (int i = 0; i < kRepeats; ++i) {
+        stopwatch.set_on(true);
+        step();
+    }
     for (const std::string& stage : stopwatch.stages())
         m.stages.emplace_back(stage, median(stopwatch.of(stage).wall_ms));
 }
