@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/accuracy/convergence.h"
 #include "firmware/accuracy/identity.h"
 #include "firmware/force_comparison.h"
 #include "gles/fluid/face_shares.h"
@@ -58,8 +59,8 @@ std::vector<double> balance(Laboratory& lab, Scene scene) {
         [&](const gles::StepResult& result) { comparison.add(result.loads, run.fluid().force_methods()); });
     double spread = 0.0, transport = 0.0;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        spread = std::max(spread, comparison.spread(i).value());
-        transport = std::max(transport, comparison.transport(i).value());
+        spread = worse(spread, comparison.spread(i).value());
+        transport = worse(transport, comparison.transport(i).value());
     }
     return {spread, transport};
 }
@@ -88,9 +89,9 @@ std::vector<double> energy_and_work(Laboratory& lab, const Scene& scene) {
         worked += work(run, result);
         const double now = energy(lab, run);
         if (result.step == 1) first = 2.0 * now / worked;
-        most = std::max(most, now);
-        given_back = std::max(given_back, lost - (worked - now));
-        lost = std::max(lost, worked - now);
+        most = worse(most, now);
+        given_back = worse(given_back, lost - (worked - now));
+        lost = worse(lost, worked - now);
     });
     return {first, given_back / most};
 }

@@ -26,6 +26,10 @@ std::optional<Extrapolation> extrapolate(const std::array<Result, 3>& finest_fir
     return Extrapolation{f1.value + change, low, 1.25 * std::abs(change / f1.value)};
 }
 
+double worse(double a, double b) {
+    return std::isnan(a) || a >= b ? a : b;
+}
+
 double linear_to_zero(const Result& a, const Result& b) {
     return a.value - a.h * (b.value - a.value) / (b.h - a.h);
 }

@@ -24,6 +24,9 @@ struct Extrapolation {
 /// value from one side, or slower than h^0.1 or faster than h^8: three grids then say nothing.
 std::optional<Extrapolation> extrapolate(const std::array<Result, 3>& finest_first);
 
+/// The greater of two errors; not a number if either is none.
+double worse(double a, double b);
+
 /// The value at x = 0 of the straight line through two results.
 double linear_to_zero(const Result& a, const Result& b);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/accuracy/convergence.h"
 #include "firmware/accuracy/identity.h"
 
 // B8.4   The force turns, and is mirrored, with the scene.
@@ -90,8 +91,8 @@ std::vector<double> anisotropy(Laboratory& lab, Scene scene) {
         const glm::dvec3 force = lab.start(scene).step_to_end().loads[0].force_n;
         const double along = -glm::dot(force, ahead);
         least = angle_deg == 0.0 ? along : std::min(least, along);
-        most = std::max(most, along);
-        aside = std::max(aside, glm::length(force + along * ahead));
+        most = worse(most, along);
+        aside = worse(aside, glm::length(force + along * ahead));
     }
     return {(most - least) / most, aside / most};
 }
@@ -160,7 +161,7 @@ std::vector<double> change_with_units(Laboratory& lab, const Scene& scene) {
         const double newton = kg * m / (s * s);
         return difference(si, history(lab, in_units(scene, m, kg, s)), glm::dmat3(newton)) / newton;
     };
-    return {std::max(change(1e3, 1e3, 1.0), change(1e-3, 1e-3, 1.0 / 3600.0))};
+    return {worse(change(1e3, 1e3, 1.0), change(1e-3, 1e-3, 1.0 / 3600.0))};
 }
 
 // --- B8.12
@@ -169,7 +170,7 @@ std::vector<double> force_outside(Laboratory& lab, Scene scene) {
     scene.bodies[0].centre_m.x += 4.0 * scene.tank.size_m.x;
     double most = 0.0;
     for (const Loads& loads : history(lab, scene))
-        most = std::max({most, glm::length(loads[0].force_n), glm::length(loads[0].torque_nm)});
+        most = worse(most, worse(glm::length(loads[0].force_n), glm::length(loads[0].torque_nm)));
     return {most};
 }
 

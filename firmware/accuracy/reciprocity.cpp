@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "firmware/accuracy/convergence.h"
 #include "firmware/accuracy/identity.h"
 
 // B8.13  What body i feels of the motion of body j, j feels of the same motion of i: the matrix of added masses, and that of
@@ -38,12 +40,13 @@ Matrix matrix(Laboratory& lab, const Scene& at_rest) {
 /// nothing but what the grid makes of its surface. Inertia of turning is in kg m^2; that of a brick of 5 cm is some 1e-4 m^2
 /// of the mass that it moves.
 double asymmetry(const Matrix& m) {
-    const auto resisted = [&](std::size_t i) { return m[i][i] > 1e-5 * m[0][0]; };
+    const auto resisted = [&](std::size_t i) { return !(m[i][i] <= 1e-5 * m[0][0]); };
+    if (!(m[0][0] > 0.0)) return std::numeric_limits<double>::quiet_NaN();  // the fluid resists nothing
     double worst = 0.0;
     for (std::size_t i = 0; i < m.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (resisted(i) && resisted(j))
-                worst = std::max(worst, std::abs(m[i][j] - m[j][i]) / std::sqrt(m[i][i] * m[j][j]));
+                worst = worse(worst, std::abs(m[i][j] - m[j][i]) / std::sqrt(m[i][i] * m[j][j]));
     return worst;
 }
 

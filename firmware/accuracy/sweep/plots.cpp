@@ -138,7 +138,7 @@ std::string stages_plot(const Table& table) {
            "set key top left reverse Left\n"
            "set multiplot layout 1,3 title 'B2: where the time of a step goes (each panel has its own scale; "
            "above a bar: "
-           "the whole step)'\n" +
+           "the sum of its stages)'\n" +
            panels;
 }
 
@@ -214,7 +214,7 @@ std::vector<std::filesystem::path> plot(const Table& table, const std::filesyste
         if (script.empty()) continue;
         const std::filesystem::path file = folder / (name + ".gnuplot"), picture = folder / (name + ".png");
         replace_text_file(file, fmt::format("cd {}\n", in_gnuplot_quotes(folder.string())) + script);
-        if (run_gnuplot(file, "no picture " + picture.string())) pictures.push_back(picture);
+        if (run_gnuplot(file, picture.string())) pictures.push_back(picture);
     }
     return pictures;
 }

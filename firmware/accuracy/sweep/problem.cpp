@@ -6,6 +6,7 @@
 
 #include "config/diagnostic.h"
 #include "config/nearest.h"
+#include "firmware/accuracy/convergence.h"
 #include "firmware/accuracy/study.h"
 #include "firmware/input_error.h"
 #include "gles/body/mass_properties.h"
@@ -16,11 +17,6 @@ namespace {
 /// The shipped case of this name, with time steps as it has them.
 const Case& shipped(const std::string& name) {
     return *cases_named(name).at(0);
-}
-
-/// The greater of two errors; not a number if either is none.
-double worse(double a, double b) {
-    return std::isnan(a) || a >= b ? a : b;
 }
 
 /// The greatest error of these quantities of a shipped case.

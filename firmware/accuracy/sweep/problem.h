@@ -32,7 +32,7 @@ const std::vector<Problem>& all_problems();
 /// Throws InputError that lists the names.
 const Problem& problem_named(const std::string& name);
 
-/// A hand that compares two forces of this ratio, less 1, is right half of the time (Jones 1989, Perception 18).
+/// Two forces that differ by this share can just be told apart (Jones 1989, Perception 18).
 constexpr double kForceJnd = 0.07;
 /// The same of two viscosities (Jones, Hunter and Lafontaine 1997, Perception 26); 34 % where a hand adjusts one to match.
 constexpr double kViscosityJnd = 0.19;

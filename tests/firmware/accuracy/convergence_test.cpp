@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace eddy::accuracy {
 namespace {
@@ -38,6 +39,14 @@ TEST(Extrapolation, OfResultsThatGoToAndFroIsNone) {
 
 TEST(LinearToZero, ContinuesTheLine) {
     EXPECT_NEAR(linear_to_zero({0.25, 1.5}, {0.5, 2.0}), 1.0, 1e-12);
+}
+
+TEST(Worse, IsTheGreaterOfTwoErrorsAndWhatIsNotANumberStaysSo) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(worse(1.0, 2.0), 2.0);
+    EXPECT_EQ(worse(2.0, 1.0), 2.0);
+    EXPECT_TRUE(std::isnan(worse(kNan, 1.0)));
+    EXPECT_TRUE(std::isnan(worse(1.0, kNan)));
 }
 
 }  // namespace
