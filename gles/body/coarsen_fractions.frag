@@ -3,7 +3,7 @@
 // reads   ax, ay, az     RGBA32F  Faces4 of the FINE grid (fine_cells)
 // writes  ax, ay, az     RGBA32F  Faces4 of the coarse grid            at least 1e-3, so that coarse cells inside a solid
 //                                                                      carry a smooth pressure and prolongation needs no mask
-// fetches 28, THIN 84
+// fetches 16, THIN 36
 //
 // Variant THIN: a coarse link is as open as two fine ones are one after the other, the one at its middle and the one before:
 // so each fine face, and with it a thin plate wherever it lies, closes one coarse face. The one before counts less as the next

@@ -8,7 +8,7 @@ namespace eddy::gles {
 
 /// Conjugate residuals with the multigrid cycle as preconditioner, ORTHOMIN(1) of Vinsome 1976: of every correction z that a
 /// cycle proposes for  A phi = b,  mixed with the direction taken last, only so much is taken as leaves the least residual.
-/// However badly a cycle fits its equation, the residual then cannot grow; and one that leaves 0.85 leaves about half with it.
+/// However badly a cycle fits its equation, it then cannot make the residual grow; and one that leaves 0.85 leaves about half.
 class LeastResidual {
   public:
     LeastResidual(Gpu& gpu, const glm::ivec3& cells);

@@ -4,7 +4,7 @@
 // reads   r_z        RGBA32F  Cells4    [m/s]      what is left of it with the correction z
 // reads   q_last     RGBA32F  Cells4    [m/s]      A p of the last direction p     not by variant FIRST
 // writes  products   RGBA32F, nx x ny texels
-// fetches 48, FIRST 32
+// fetches 48, FIRST 32        3 and 2 for each slab of four layers; 16 slabs are 64 layers
 uniform sampler2D r, r_z;
 #ifndef FIRST
 uniform sampler2D q_last;
