@@ -49,7 +49,8 @@ std::string iterations_plot(const Table& table) {
     const std::set<int> grids = grids_of(some);
     std::string panels;
     const std::pair<const char*, std::vector<SolverPreset>> kPanels[] = {
-        {"multigrid V-cycles a step", {SolverPreset::Fast, SolverPreset::Precise}},
+        {"multigrid V-cycles a step (three more in this first one)",
+         {SolverPreset::Fast, SolverPreset::Precise}},
         {"Jacobi sweeps a step", {SolverPreset::Yang2009}}};
     for (const auto& [label, methods] : kPanels) {
         Plot plot;

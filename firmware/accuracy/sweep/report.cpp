@@ -152,7 +152,8 @@ std::string report_of(const Table& table) {
         text += "Times of different machines are mixed here: compare errors, not times.\n";
     text +=
         "Times are wall time of a step, median of its repeats; x2 is two multigrid cycles, or Jacobi sweeps "
-        "of yang2009.\n";
+        "of yang2009.\n"
+        "The first step, whose force is B2's error, takes three cycles more; times are of later steps.\n";
     for (const Problem& problem : all_problems()) {
         const Chosen measured = points_of(table, problem.name);
         if (measured.empty()) continue;
