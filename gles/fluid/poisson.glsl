@@ -10,24 +10,35 @@ uniform sampler2D phi;
 uniform sampler2D ax, ay, az;
 #endif
 
-// Returns sum_f a_f (phi_nb - phi); diagonal = sum_f a_f; centre = phi itself.
-vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
-    vec4 p = at(phi, PHI, c);
-    vec4 xl = at_clamped(phi, PHI, c - ivec3(1, 0, 0)), xh = at_clamped(phi, PHI, c + ivec3(1, 0, 0));
-    vec4 yl = at_clamped(phi, PHI, c - ivec3(0, 1, 0)), yh = at_clamped(phi, PHI, c + ivec3(0, 1, 0));
-    vec4 zl = vec4(at_clamped(phi, PHI, c - ivec3(0, 0, 1)).w, p.xyz);
-    vec4 zh = vec4(p.yzw, at_clamped(phi, PHI, c + ivec3(0, 0, 1)).x);
-    vec4 z = float(4 * c.z) + vec4(0.0, 1.0, 2.0, 3.0);
-    vec4 has_zl = vec4(greaterThan(z, vec4(0.0))), has_zh = vec4(lessThan(z + 1.0, vec4(CELLS.z)));
-    vec4 valid = vec4(lessThan(z, vec4(CELLS.z)));
+// phi of four cells and of what lies around them.
+struct Neighbours {
+    vec4 p, xl, xh, yl, yh, zl, zh;  // the cells themselves; their six neighbours, which at walls are themselves
+};
+
+// Layers c.z - 1 and c.z + 1 touch four cells in one number each.
+vec4 shifted_down(vec4 p, vec4 below) { return vec4(below.w, p.xyz); }
+vec4 shifted_up(vec4 p, vec4 above) { return vec4(p.yzw, above.x); }
+
+// 1 for the four cells of slab z that are in the tank.
+vec4 inside(int z) {
+    if (CELLS.z % 4 == 0) return vec4(1.0);
+    return vec4(lessThan(4 * z + ivec4(0, 1, 2, 3), ivec4(CELLS.z)));
+}
+
+// Returns sum_f a_f (phi_nb - phi) of the four cells at c; diagonal = sum_f a_f.
+vec4 balance(ivec3 c, Neighbours n, out vec4 diagonal) {
+    vec4 p = n.p, xl = n.xl, xh = n.xh, yl = n.yl, yh = n.yh, zl = n.zl, zh = n.zh;
+    vec4 valid = inside(c.z);
+    vec4 has_zl = vec4(float(c.z > 0), 1.0, 1.0, 1.0);
+    vec4 has_zh = CELLS.z % 4 == 0 ? vec4(1.0, 1.0, 1.0, float(c.z + 1 < PHI.size.z))
+                                   : vec4(lessThan(4 * c.z + ivec4(1, 2, 3, 4), ivec4(CELLS.z)));
     float has_xl = float(c.x > 0), has_xh = float(c.x + 1 < CELLS.x);
     float has_yl = float(c.y > 0), has_yh = float(c.y + 1 < CELLS.y);
-    centre = p;
 #ifdef LAST_LINK
     float link_xl = c.x + 1 < CELLS.x ? 1.0 : LAST_LINK.x, link_xh = c.x + 2 < CELLS.x ? 1.0 : LAST_LINK.x;
     float link_yl = c.y + 1 < CELLS.y ? 1.0 : LAST_LINK.y, link_yh = c.y + 2 < CELLS.y ? 1.0 : LAST_LINK.y;
-    vec4 link_zl = mix(vec4(LAST_LINK.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(CELLS.z))));
-    vec4 link_zh = mix(vec4(LAST_LINK.z), vec4(1.0), vec4(lessThan(z + 2.0, vec4(CELLS.z))));
+    vec4 link_zl = mix(vec4(LAST_LINK.z), vec4(1.0), vec4(lessThan(4 * c.z + ivec4(1, 2, 3, 4), ivec4(CELLS.z))));
+    vec4 link_zh = mix(vec4(LAST_LINK.z), vec4(1.0), vec4(lessThan(4 * c.z + ivec4(2, 3, 4, 5), ivec4(CELLS.z))));
 #else
     const float link_xl = 1.0, link_xh = 1.0, link_yl = 1.0, link_yh = 1.0;
     const vec4 link_zl = vec4(1.0), link_zh = vec4(1.0);
@@ -58,14 +69,18 @@ vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
 #endif
     return sum;
 #else
-    // Clamping made phi_nb = phi at the walls in x and y, so only the diagonal must know of them.
+    // At walls phi_nb = phi in x and y, so only the diagonal must know of them.
+#if !defined(LAST_LINK) && !defined(LAST_CELL) && !defined(THROUGH)
+    diagonal = valid * (has_xl + has_xh + has_yl + has_yh + has_zl + has_zh);
+    return valid * ((xl - p) + (xh - p) + (yl - p) + (yh - p) + has_zl * (zl - p) + has_zh * (zh - p));
+#else
     vec4 in_x = valid * (link_xl * has_xl + link_xh * has_xh), in_y = valid * (link_yl * has_yl + link_yh * has_yh);
     vec4 in_z = valid * (link_zl * has_zl + link_zh * has_zh);
     vec4 lap_x = valid * (link_xl * (xl - p) + link_xh * (xh - p)), lap_y = valid * (link_yl * (yl - p) + link_yh * (yh - p));
     vec4 lap_z = valid * (link_zl * has_zl * (zl - p) + link_zh * has_zh * (zh - p));
 #ifdef LAST_CELL
     float sx = c.x + 1 < CELLS.x ? 1.0 : LAST_CELL.x, sy = c.y + 1 < CELLS.y ? 1.0 : LAST_CELL.y;
-    vec4 sz = mix(vec4(LAST_CELL.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(CELLS.z))));
+    vec4 sz = mix(vec4(LAST_CELL.z), vec4(1.0), vec4(lessThan(4 * c.z + ivec4(1, 2, 3, 4), ivec4(CELLS.z))));
     vec4 share_x = sy * sz, share_y = sx * sz, share_z = vec4(sx * sy);
 #else
     vec4 share_x = vec4(1.0), share_y = vec4(1.0), share_z = vec4(1.0);
@@ -79,4 +94,22 @@ vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
 #endif
     return sum;
 #endif
+#endif
+}
+
+// The same of phi as it lies in its texture; centre = phi itself.
+vec4 laplacian(ivec3 c, out vec4 diagonal, out vec4 centre) {
+    ivec2 t = texel_of(PHI, c);
+    ivec2 left = ivec2(int(c.x > 0), 0), right = ivec2(int(c.x + 1 < PHI.size.x), 0);
+    ivec2 down = ivec2(0, int(c.y > 0)), up = ivec2(0, int(c.y + 1 < PHI.size.y));
+    Neighbours n;
+    n.p = texelFetch(phi, t, 0);
+    n.xl = texelFetch(phi, t - left, 0);
+    n.xh = texelFetch(phi, t + right, 0);
+    n.yl = texelFetch(phi, t - down, 0);
+    n.yh = texelFetch(phi, t + up, 0);
+    n.zl = shifted_down(n.p, at_clamped(phi, PHI, c - ivec3(0, 0, 1)));
+    n.zh = shifted_up(n.p, at_clamped(phi, PHI, c + ivec3(0, 0, 1)));
+    centre = n.p;
+    return balance(c, n, diagonal);
 }

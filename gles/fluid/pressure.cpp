@@ -1,6 +1,6 @@
 #include "gles/fluid/pressure.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,11 +28,15 @@ const std::vector<float> kSmoother = chebyshev_weights(2, 1.0 / 3.0, 2.0);
 // On the coarsest grid they must solve: the slowest mode of 4 cells has (1 - cos(pi/4)) / 3 = 0.098.
 const std::vector<float> kSolver = chebyshev_weights(kCoarsestSweeps, 0.08, 2.0);
 
+std::string glsl(const std::vector<float>& values) {
+    return fmt::format("float[{}]({:.8f})", values.size(), fmt::join(values, ", "));
+}
+
 }  // namespace
 
 std::vector<glm::ivec3> multigrid_levels(const glm::ivec3& n) {
     std::vector<glm::ivec3> levels{n};
-    while (std::max({levels.back().x, levels.back().y, levels.back().z}) > kCoarsest)
+    while (levels.size() < 2 || std::max({levels.back().x, levels.back().y, levels.back().z}) > kCoarsest)
         levels.push_back((levels.back() + 1) / 2);
     return levels;
 }
@@ -70,7 +74,7 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
     const std::vector<glm::ivec3> grids = multigrid_levels(cells);
     for (std::size_t l = 0; l < grids.size(); ++l) {
         const glm::ivec3 n = grids[l];
-        Level level{n, std::min({n.x, n.y, n.z}) >= kSplitFrom, {}, {}, {}, {}, {}};
+        Level level{n, std::min({n.x, n.y, n.z}) >= kSplitFrom, {}, {}, {}, {}, {}, {}};
         levels_.push_back(std::move(level));
     }
     if (fractions_) {
@@ -87,11 +91,17 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
     for (std::size_t l = 0; l < grids.size(); ++l) {
         Level& level = levels_[l];
         const AtlasLayout here = Cells4::layout(grids[l]);
+        if (l + 1 == grids.size()) {
+            level.solve.emplace(
+                make(gpu, "solve", "gles/fluid/solve_coarsest.frag", l, here,
+                     {.defines = {{"SWEEPS", fmt::format("{}", kSolver.size())}, {"OMEGA", glsl(kSolver)}}},
+                     walls));
+            break;
+        }
         level.sweep.emplace(make(gpu, "smooth", "gles/fluid/smooth.frag", l, here, {}, walls));
         if (l > 0 || from_zero || least_residual_)
             level.first_sweep.emplace(make(gpu, "smooth from zero", "gles/fluid/smooth.frag", l, here,
                                            {.defines = {{"FROM_ZERO", ""}}}, walls));
-        if (l + 1 == grids.size()) break;
         const AtlasLayout coarse = Cells4::layout(grids[l + 1]);
         level.restrict.emplace(
             make(gpu, "restrict residual", "gles/fluid/restrict_residual.frag", l, coarse, {}, walls));
@@ -126,14 +136,15 @@ Pressure::Split Pressure::make(Gpu& gpu, const char* name, const char* shader, s
 }
 
 void Pressure::draw(Split& pass, std::size_t l, std::vector<Input> inputs,
-                    const std::vector<Uniform>& uniforms, const Texture& out, const std::vector<Box>& boxes) {
+                    const std::vector<Uniform>& uniforms, const Texture& out, const std::vector<Box>& boxes,
+                    const Region& where) {
     if (!fractions_) {
-        pass.plain.draw(inputs, uniforms, {&out});
+        pass.plain.draw(inputs, uniforms, {&out}, where);
         return;
     }
     const std::vector<Input> a = fractions_->level(l).inputs();
     inputs.insert(inputs.end(), a.begin(), a.end());
-    pass.plain.draw(inputs, uniforms, {&out});
+    pass.plain.draw(inputs, uniforms, {&out}, where);
     if (pass.cut) pass.cut->draw(inputs, uniforms, {&out}, Region::packed(boxes));
 }
 
@@ -160,16 +171,13 @@ void Pressure::sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std
     std::vector<Box> near = boxes, wider = boxes;
     for (Box& box : near) box = box.grow(kRoughReach);
     for (Box& box : wider) box = box.grow(kRoughReach + 1);
-    Split& sweep = *levels_[0].sweep;
-    Pass& cut = sweep.cut ? *sweep.cut : sweep.plain;
-    std::vector<Input> inputs{{"phi", &phi.texture()}, {"b", &b.texture()}};
-    if (fractions_) {
-        const std::vector<Input> a = fractions_->level(0).inputs();
-        inputs.insert(inputs.end(), a.begin(), a.end());
-    }
-    cut.draw(inputs, {{"omega", kSmoother[0]}, {"scale", 1.0f}}, {&there.texture()}, Region::packed(wider));
-    inputs[0].texture = &there.texture();
-    cut.draw(inputs, {{"omega", kSmoother[1]}, {"scale", 1.0f}}, {&phi.texture()}, Region::packed(near));
+    const auto sweep = [&](const Field<Cells4>& from, float omega, const Field<Cells4>& to,
+                           const std::vector<Box>& where) {
+        draw(*levels_[0].sweep, 0, {{"phi", &from.texture()}, {"b", &b.texture()}},
+             {{"omega", omega}, {"scale", 1.0f}}, to.texture(), levels_[0].boxes, Region::packed(where));
+    };
+    sweep(phi, kSmoother[0], there, wider);
+    sweep(there, kSmoother[1], phi, near);
 }
 
 Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<Displacement>& since) {
@@ -192,11 +200,13 @@ Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<Displacement
 Field<Cells4> Pressure::cycle(std::size_t l, std::optional<Field<Cells4>> phi, float scale,
                               const Field<Cells4>& b) {
     Level& level = levels_[l];
-    const bool coarsest = l + 1 == levels_.size();
-    const std::vector<float>& weights = coarsest ? kSolver : kSmoother;
-    Field<Cells4> p = phi ? sweep(l, *phi, scale, b, weights[0]) : sweep_from_zero(l, b, weights[0]);
-    for (std::size_t i = 1; i < weights.size(); ++i) p = sweep(l, p, 1.0f, b, weights[i]);
-    if (coarsest) return p;
+    if (level.solve) {
+        Field<Cells4> solved(*gpu_, level.cells, Format::RGBA32F);
+        draw(*level.solve, l, {{"b", &b.texture()}}, {}, solved.texture(), level.boxes);
+        return solved;
+    }
+    Field<Cells4> p = phi ? sweep(l, *phi, scale, b, kSmoother[0]) : sweep_from_zero(l, b, kSmoother[0]);
+    p = sweep(l, p, 1.0f, b, kSmoother[1]);
 
     Field<Cells4> b_coarse(*gpu_, levels_[l + 1].cells, Format::RGBA32F);
     draw(*level.restrict, l, {{"phi", &p.texture()}, {"b", &b.texture()}}, {}, b_coarse.texture(),

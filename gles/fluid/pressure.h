@@ -58,13 +58,14 @@ class Pressure {
         bool split;  ///< a plain sweep of the whole grid and a cut one of the boxes over it cost less than
                      ///< one cut sweep
         std::optional<Split> first_sweep, sweep, restrict, prolong;
+        std::optional<Split> solve;  ///< the coarsest has only this
         std::vector<Box> boxes;
     };
 
     Split make(Gpu& gpu, const char* name, const char* shader, std::size_t level, const AtlasLayout& target,
                Variant variant, const Walls& walls);
     void draw(Split& pass, std::size_t level, std::vector<Input> inputs, const std::vector<Uniform>& uniforms,
-              const Texture& out, const std::vector<Box>& boxes);
+              const Texture& out, const std::vector<Box>& boxes, const Region& where = Region::everything());
     Field<Cells4> sweep(std::size_t l, const Field<Cells4>& phi, float scale, const Field<Cells4>& b,
                         float omega);
     Field<Cells4> sweep_from_zero(std::size_t l, const Field<Cells4>& b, float omega);

@@ -6,8 +6,8 @@
 // writes  u           RGBA32F  Faces                       [m/s]
 // fetches 5, CUT 8, WALLS 15, CUT+WALLS 24
 //
-// Variants: plain away from solids; CUT near them; WALLS for the layers at the upper walls, where components that own no
-// face there repeat their neighbour (velocity.glsl); THROUGH where walls let fluid through (walls.h);
+// In the layers at the upper walls components that own no face there repeat their neighbour (velocity.glsl).
+// Variants: plain away from solids; CUT near them; THROUGH where walls let fluid through (walls.h), with WALLS for those layers;
 // PREDICTS where a viscous step starts with the pressure of the last one.
 uniform sampler2D velocity, phi;
 #ifdef PREDICTS
@@ -39,20 +39,21 @@ vec3 solid_faces(ivec3 c) {
 }
 #endif
 
-// The three components of one texel. At a wall both potentials are the same, and the mask does the rest.
-vec3 projected(ivec3 c) {
-    float p = potential(c);
-    vec3 u = at(velocity, FACES, c).xyz;
-    u -= p - vec3(potential(c - ivec3(1, 0, 0)), potential(c - ivec3(0, 1, 0)), potential(c - ivec3(0, 0, 1)));
+// Those components of one texel that c owns: all but at upper walls, where it owns the one through the wall. `m` is the cell
+// whose faces they are. At a wall both potentials are the same, and the mask does the rest.
+vec3 projected(ivec3 c, ivec3 m) {
+    float p = potential(m);
+    vec3 u = at(velocity, FACES, m).xyz;
+    u -= p - vec3(potential(m - ivec3(1, 0, 0)), potential(m - ivec3(0, 1, 0)), potential(m - ivec3(0, 0, 1)));
     vec3 low = vec3(lessThanEqual(c, ivec3(0))), high = vec3(greaterThanEqual(c, CELLS));
 #ifdef THROUGH
     u -= p * (low * OPEN_LOW - high * OPEN_HIGH);
 #endif
 #ifdef CUT
-    vec3 x = vec3(c);
+    vec3 x = vec3(m);
     vec3 solid = vec3(solid_velocity(x + vec3(0.0, 0.5, 0.5)).x, solid_velocity(x + vec3(0.5, 0.0, 0.5)).y,
                       solid_velocity(x + vec3(0.5, 0.5, 0.0)).z);
-    u = mix(u, solid, solid_faces(c));
+    u = mix(u, solid, solid_faces(m));
 #endif
 #ifdef THROUGH
     vec3 inflow = low * INFLOW_LOW + high * INFLOW_HIGH;
@@ -68,11 +69,11 @@ vec3 projected(ivec3 c) {
 }
 
 void main() {
-    ivec3 c = cell_here(TARGET);
+    ivec3 c = cell_here(TARGET), m = min(c, CELLS - 1);
 #ifdef WALLS
-    ivec3 m = min(c, CELLS - 1);
-    result = vec4(projected(ivec3(c.x, m.yz)).x, projected(ivec3(m.x, c.y, m.z)).y, projected(ivec3(m.xy, c.z)).z, 0.0);
+    ivec3 x = ivec3(c.x, m.yz), y = ivec3(m.x, c.y, m.z), z = ivec3(m.xy, c.z);
+    result = vec4(projected(x, x).x, projected(y, y).y, projected(z, z).z, 0.0);
 #else
-    result = vec4(projected(c), 0.0);
+    result = vec4(projected(c, m), 0.0);
 #endif
 }

@@ -33,6 +33,12 @@ Region upper_walls(const glm::ivec3& n) {
         {{{n.x, 0, 0}, n + 1}, {{0, n.y, 0}, {n.x, n.y + 1, n.z + 1}}, {{0, 0, n.z}, {n.x, n.y, n.z + 1}}});
 }
 
+/// Boxes of cells, and the faces on the far side of those that end at an upper wall.
+std::vector<Box> with_upper_walls(std::vector<Box> boxes, const glm::ivec3& n) {
+    for (Box& box : boxes) box.hi += glm::ivec3(glm::equal(box.hi, n));
+    return boxes;
+}
+
 constexpr const char* kDivergence = "gles/fluid/divergence.frag";
 constexpr const char* kProject = "gles/fluid/project.frag";
 
@@ -44,9 +50,10 @@ Projection::Projection(Gpu& gpu, const FluidSetup& setup, const Walls& walls, co
       fractions_(fractions),
       bodies_(&bodies),
       divergence_(gpu, "divergence", kDivergence, Cells4::layout(setup.cells), variant(setup, walls, false)),
-      project_(gpu, "project", kProject, Faces::layout(setup.cells), project_variant(setup, walls, false)),
-      project_at_walls_(gpu, "project at walls", kProject, Faces::layout(setup.cells),
-                        at_walls(project_variant(setup, walls, fractions != nullptr))) {
+      project_(gpu, "project", kProject, Faces::layout(setup.cells), project_variant(setup, walls, false)) {
+    if (walls.let_through())
+        project_at_walls_.emplace(gpu, "project at walls", kProject, Faces::layout(setup.cells),
+                                  at_walls(project_variant(setup, walls, fractions != nullptr)));
     if (!fractions) return;
     divergence_cut_.emplace(gpu, "divergence cut", kDivergence, Cells4::layout(setup.cells),
                             variant(setup, walls, true));
@@ -83,9 +90,10 @@ Field<Faces> Projection::project(const Field<Faces>& u, const Field<Cells4>& phi
     project_.draw(inputs, uniforms, {&next.texture()});
     if (fractions_) {
         add_solids(inputs, uniforms);
-        project_cut_->draw(inputs, uniforms, {&next.texture()}, Region(boxes));
+        project_cut_->draw(inputs, uniforms, {&next.texture()}, Region(with_upper_walls(boxes, u.cells())));
     }
-    project_at_walls_.draw(inputs, uniforms, {&next.texture()}, upper_walls(u.cells()));
+    if (project_at_walls_)
+        project_at_walls_->draw(inputs, uniforms, {&next.texture()}, upper_walls(u.cells()));
     return next;
 }
 

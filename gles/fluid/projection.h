@@ -29,8 +29,9 @@ class Projection {
     Gpu* gpu_;
     const Fractions* fractions_;
     const BodyUniforms* bodies_;
-    Pass divergence_, project_, project_at_walls_;
+    Pass divergence_, project_;
     std::optional<Pass> divergence_cut_, project_cut_;
+    std::optional<Pass> project_at_walls_;  ///< of which any lets fluid through
 };
 
 }  // namespace eddy::gles

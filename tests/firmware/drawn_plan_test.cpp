@@ -212,6 +212,7 @@ const Caller kCallers[] = {
     {"sharpen fractions", any_body},
     {"smoke sources", [](const Scene& s) { return any_source(s, &Scene::Source::smoke_per_s); }},
     {"smooth", solved},
+    {"solve", solved},
     {"sum force", any_measured},
     {"sum traction", [](const Scene& s) { return any_measured(s) || any_coupled(s); }},
     {"traction", [](const Scene& s) { return any_measured(s) || any_coupled(s); }},
