@@ -202,7 +202,8 @@ Field<Cells4> Pressure::cycle(std::size_t l, std::optional<Field<Cells4>> phi, f
     Level& level = levels_[l];
     if (level.solve) {
         Field<Cells4> solved(*gpu_, level.cells, Format::RGBA32F);
-        draw(*level.solve, l, {{"b", &b.texture()}}, {}, solved.texture(), level.boxes);
+        draw(*level.solve, l, {{"b", &b.texture()}}, {{"sweeps", kCoarsestSweeps}}, solved.texture(),
+             level.boxes);
         return solved;
     }
     Field<Cells4> p = phi ? sweep(l, *phi, scale, b, kSmoother[0]) : sweep_from_zero(l, b, kSmoother[0]);

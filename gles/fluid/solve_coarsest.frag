@@ -1,4 +1,4 @@
-// solve_coarsest.frag     A phi = b on a grid of at most 4 x 4 x 4 cells: SWEEPS sweeps from phi = 0 in one pass
+// solve_coarsest.frag     A phi = b on a grid of at most 4 x 4 x 4 cells: all sweeps, from phi = 0, in one pass
 //
 // reads   b          RGBA32F  Cells4    [m/s]
 // reads   ax, ay, az RGBA32F  Faces4    variant CUT
@@ -6,14 +6,15 @@
 // fetches 16, CUT 784
 //
 // Every fragment solves the whole grid and keeps its own column: a hundredth of the work of a sweep of the finest grid, and
-// SWEEPS passes less, each of which costs more than all they compute.
+// seven passes less, each of which costs more than all they compute.
 #include "poisson.glsl"
 
 uniform sampler2D b;
+uniform int sweeps;  // how many: no constant, as drivers that write loops out take seconds to compile them all
 
 out vec4 result;
 
-const float omega[SWEEPS] = OMEGA;  // relaxation of each sweep
+const float omega[] = OMEGA;  // relaxation of each sweep
 const int COLUMNS = CELLS.x * CELLS.y;
 
 int column(int x, int y) { return clamp(x, 0, CELLS.x - 1) + CELLS.x * clamp(y, 0, CELLS.y - 1); }
@@ -24,7 +25,7 @@ void main() {
         right_side[i] = at(b, PHI, ivec3(i % CELLS.x, i / CELLS.x, 0));
         p[i] = vec4(0.0);
     }
-    for (int sweep = 0; sweep < SWEEPS; ++sweep) {
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
         for (int i = 0; i < COLUMNS; ++i) {
             int x = i % CELLS.x, y = i / CELLS.x;
             Neighbours n = Neighbours(p[i], p[column(x - 1, y)], p[column(x + 1, y)], p[column(x, y - 1)],
