@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gles/context.h"
+#include "gles/program.h"
 #include "gles/texture.h"
 
 namespace eddy::gles {
@@ -36,6 +37,7 @@ class Gpu {
 
     const Capabilities& capabilities() const { return capabilities_; }
     TexturePool& textures() { return textures_; }
+    ProgramCache& programs() { return programs_; }
     /// Whether passes may sample 32-bit textures linearly; tests turn it off to try the other path.
     bool filters_float() const { return filters_float_; }
     void set_filters_float(bool on) { filters_float_ = on && capabilities_.filters_float; }
@@ -67,6 +69,7 @@ class Gpu {
     Capabilities capabilities_;
     bool filters_float_;
     TexturePool textures_;
+    ProgramCache programs_;
     unsigned vertex_array_ = 0;
     std::map<std::vector<std::uint64_t>, unsigned> framebuffers_;  // by the serials of their textures
     std::string stage_;

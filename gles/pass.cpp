@@ -3,28 +3,12 @@
 #include <GLES3/gl3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "gles/shader_source.h"
 
 namespace eddy::gles {
 namespace {
-
-unsigned compile(GLenum kind, std::string_view path, const std::string& switches,
-                 const std::string& declarations) {
-    const ShaderSource source = load_shader(path, switches, declarations);
-    const GLuint shader = glCreateShader(kind);
-    const GLchar* text = source.text.c_str();
-    glShaderSource(shader, 1, &text, nullptr);
-    glCompileShader(shader);
-    GLint ok = GL_FALSE;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (ok) return shader;
-    std::string log(8192, '\0');
-    GLsizei length = 0;
-    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
-    glDeleteShader(shader);
-    throw GlError(fmt::format("{} does not compile:\n{}", path, source.locate(log)));
-}
 
 struct SetUniform {
     int at;
@@ -83,79 +67,25 @@ Pass::Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayou
       shader_(shader),
       target_(target),
       fetches_(declared_fetches(shader, switch_names(variant))) {
-    const std::string defines = switches(gpu, variant), constants = declarations(target, variant);
-    const unsigned vertex =
-        compile(GL_VERTEX_SHADER, "gles/pass.vert", "#define VERTEX_SHADER\n", target.declaration("TARGET"));
-    const unsigned fragment = compile(GL_FRAGMENT_SHADER, shader, defines, constants);
-    program_ = glCreateProgram();
-    glAttachShader(program_, vertex);
-    glAttachShader(program_, fragment);
-    glLinkProgram(program_);
-    glDeleteShader(vertex);
-    glDeleteShader(fragment);
-    GLint ok = GL_FALSE;
-    glGetProgramiv(program_, GL_LINK_STATUS, &ok);
-    if (!ok) {
-        std::string log(4096, '\0');
-        GLsizei length = 0;
-        glGetProgramInfoLog(program_, static_cast<GLsizei>(log.size()), &length, log.data());
-        log.resize(static_cast<std::size_t>(length));
-        throw GlError(fmt::format("{} does not link:\n{}", shader, log));
-    }
-
-    GLint count = 0;
-    glGetProgramiv(program_, GL_ACTIVE_UNIFORMS, &count);
-    glUseProgram(program_);
-    int unit = 0;
-    for (GLint i = 0; i < count; ++i) {
-        GLchar text[64];
-        GLint size = 0;
-        GLenum type = 0;
-        glGetActiveUniform(program_, static_cast<GLuint>(i), sizeof text, nullptr, &size, &type, text);
-        std::string uniform(text);
-        const int location = glGetUniformLocation(program_, text);
-        if (uniform == "rect")
-            rect_ = location;
-        else if (uniform == "first_slab")
-            first_slab_ = location;
-        else {
-            if (const std::size_t bracket = uniform.find('['); bracket != std::string::npos)
-                uniform.resize(bracket);
-            const bool is_sampler = type == GL_SAMPLER_2D;
-            // A sampler's "location" here is its texture unit: set once, never changed.
-            if (is_sampler) glUniform1i(location, unit);
-            locations_.push_back({uniform, is_sampler ? unit++ : location, is_sampler, false});
-        }
-    }
+    program_ = gpu.programs().get({std::string(shader), switches(gpu, variant), declarations(target, variant),
+                                   target.declaration("TARGET")});
 }
 
-Pass::~Pass() {
-    glDeleteProgram(program_);
-}
-
-Pass::Pass(Pass&& other) noexcept
-    : gpu_(other.gpu_),
-      name_(std::move(other.name_)),
-      shader_(std::move(other.shader_)),
-      target_(other.target_),
-      fetches_(other.fetches_),
-      program_(std::exchange(other.program_, 0)),
-      rect_(other.rect_),
-      first_slab_(other.first_slab_),
-      locations_(std::move(other.locations_)),
-      checked_(other.checked_) {}
-
-Pass::Location* Pass::find(std::string_view name) {
-    for (Location& location : locations_)
-        if (location.name == name) return &location;
+const Program::Uniform* Pass::find(std::string_view name) const {
+    for (const Program::Uniform& uniform : program_->uniforms())
+        if (uniform.name == name) return &uniform;
     return nullptr;  // the compiler dropped it: this variant does not need it
 }
 
-void Pass::require_all_given() const {
-    for (const Location& location : locations_)
-        if (!location.given)
+void Pass::require_all_given(const std::vector<Input>& inputs, const std::vector<Uniform>& uniforms) const {
+    for (const Program::Uniform& needed : program_->uniforms()) {
+        const auto is_it = [&](const auto& given) { return given.name == needed.name; };
+        const bool given = needed.is_sampler ? std::any_of(inputs.begin(), inputs.end(), is_it)
+                                             : std::any_of(uniforms.begin(), uniforms.end(), is_it);
+        if (!given)
             throw GlError(
-                fmt::format("{}: uniform '{}' is used but was never given a value", shader_, location.name));
+                fmt::format("{}: uniform '{}' is used but was not given a value", shader_, needed.name));
+    }
 }
 
 void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& uniforms,
@@ -163,30 +93,27 @@ void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& un
     glBindFramebuffer(GL_FRAMEBUFFER, gpu_->framebuffer(outputs));
     const glm::ivec2 size = outputs[0]->size();
     glViewport(0, 0, size.x, size.y);
-    glUseProgram(program_);
+    glUseProgram(program_->id());
     for (const Input& input : inputs) {
-        Location* sampler = find(input.name);
+        const Program::Uniform* sampler = find(input.name);
         if (!sampler) continue;
-        sampler->given = true;
         glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(sampler->location));
         glBindTexture(GL_TEXTURE_2D, input.texture->id());
     }
     for (const Uniform& uniform : uniforms) {
-        Location* location = find(uniform.name);
-        if (!location) continue;
-        location->given = true;
-        std::visit(SetUniform{location->location}, uniform.value);
+        if (const Program::Uniform* known = find(uniform.name))
+            std::visit(SetUniform{known->location}, uniform.value);
     }
     if (!checked_) {
-        require_all_given();
+        require_all_given(inputs, uniforms);
         checked_ = true;
     }
 
     int draws = 0;
     std::int64_t texels = 0;
     if (region.is_everything()) {
-        glUniform4i(rect_, 0, 0, 2 * size.x, 2 * size.y);
-        glUniform1i(first_slab_, 0);
+        glUniform4i(program_->rect(), 0, 0, 2 * size.x, 2 * size.y);
+        glUniform1i(program_->first_slab(), 0);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         ++draws;
         texels = std::int64_t{size.x} * size.y;
@@ -194,8 +121,8 @@ void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& un
     for (const Box& wanted : region.boxes()) {
         const Box box = wanted.intersect({glm::ivec3(0), target_.size});
         if (box.empty()) continue;
-        glUniform4i(rect_, box.lo.x, box.lo.y, box.hi.x, box.hi.y);
-        glUniform1i(first_slab_, box.lo.z);
+        glUniform4i(program_->rect(), box.lo.x, box.lo.y, box.hi.x, box.hi.y);
+        glUniform1i(program_->first_slab(), box.lo.z);
         const glm::ivec3 extent = box.hi - box.lo;
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, extent.z);
         ++draws;

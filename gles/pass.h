@@ -6,6 +6,7 @@
 
 #include "gles/atlas.h"
 #include "gles/gpu.h"
+#include "gles/program.h"
 
 namespace eddy::gles {
 
@@ -58,11 +59,6 @@ class Pass {
     /// `target` is the layout of everything it writes; shaders call it TARGET.
     Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayout& target,
          const Variant& variant = {});
-    ~Pass();
-    Pass(Pass&& other) noexcept;
-    Pass(const Pass&) = delete;
-    Pass& operator=(const Pass&) = delete;
-    Pass& operator=(Pass&&) = delete;
 
     void draw(const std::vector<Input>& inputs, const std::vector<Uniform>& uniforms,
               const std::vector<const Texture*>& outputs, const Region& region = Region::everything());
@@ -70,23 +66,16 @@ class Pass {
     const std::string& name() const { return name_; }
 
   private:
-    struct Location {
-        std::string name;
-        int location;
-        bool is_sampler;
-        bool given;
-    };
-    Location* find(std::string_view name);
-    void require_all_given() const;
+    const Program::Uniform* find(std::string_view name) const;
+    void require_all_given(const std::vector<Input>& inputs, const std::vector<Uniform>& uniforms) const;
 
     Gpu* gpu_;
     std::string name_;
     std::string shader_;
     AtlasLayout target_;
     int fetches_;
-    unsigned program_ = 0;
-    int rect_ = -1, first_slab_ = -1;
-    std::vector<Location> locations_;
+    std::shared_ptr<const Program>
+        program_;  ///< other passes may draw with it: all is given anew at each draw
     bool checked_ = false;
 };
 
