@@ -35,35 +35,39 @@ int subcubes(const std::vector<BodySetup>& bodies) {
 /// The thinnest solid that closes a layer of faces wherever it lies: the cells that its two surfaces touch, and one more.
 constexpr double kThinCells = 2.7;
 
-/// Whether a body is, or a mesh may be anywhere, thinner than that.
-bool may_be_thin(const std::vector<BodySetup>& bodies, double cell_m) {
+/// Twice as deep as a point inside can lie: where the body is thickest.
+double thickest_m(const Shape& shape) {
+    const Mesh* mesh = std::get_if<Mesh>(&shape);
+    return mesh ? 2.0 * mesh->distance->depth_m() : thickness_m(shape);
+}
+
+/// Whether a body is thinner than that, by one thickness or the other. Of a mesh nobody knows where it is thinnest
+/// (thickness_m() is 0). So the shaders look for thin places in every mesh, which costs little; but the pressure takes its
+/// dearer cycles only beside one that is thin even where it is thickest.
+bool any_thinner(const std::vector<BodySetup>& bodies, double cell_m, double (*width_m)(const Shape&)) {
     return std::any_of(bodies.begin(), bodies.end(), [&](const BodySetup& body) {
-        return !body.inside_out && thickness_m(body.shape) < kThinCells * cell_m;
+        return !body.inside_out && width_m(body.shape) < kThinCells * cell_m;
     });
 }
 
 Variant finest_variant(const std::vector<BodySetup>& bodies, double cell_m) {
     Variant v{.defines = {{"SUBCUBES", fmt::format("{}", subcubes(bodies))}},
               .declarations = shape_declarations(bodies)};
-    if (may_be_thin(bodies, cell_m)) v.defines.emplace_back("THIN", "");
+    if (any_thinner(bodies, cell_m, thickness_m)) v.defines.emplace_back("THIN", "");
     return v;
 }
 
 Variant coarse_variant(const glm::ivec3& fine, const std::vector<BodySetup>& bodies, double cell_m) {
     Variant v{.layouts = {{"FINE", Faces4::layout(fine)}},
               .defines = {{"FINE_LAYERS", fmt::format("{}", fine.z + 1)}, {"FINE_CELLS", glsl(fine)}}};
-    if (may_be_thin(bodies, cell_m)) v.defines.emplace_back("THIN", "");
+    if (any_thinner(bodies, cell_m, thickness_m)) v.defines.emplace_back("THIN", "");
     return v;
 }
 
 }  // namespace
 
 bool any_thin_body(const std::vector<BodySetup>& bodies, double cell_m) {
-    return std::any_of(bodies.begin(), bodies.end(), [&](const BodySetup& body) {
-        const Mesh* mesh = std::get_if<Mesh>(&body.shape);
-        const double thickness = mesh ? 2.0 * mesh->distance->depth_m() : thickness_m(body.shape);
-        return !body.inside_out && thickness < kThinCells * cell_m;
-    });
+    return any_thinner(bodies, cell_m, thickest_m);
 }
 
 std::vector<Input> FaceFractions::inputs() const {
