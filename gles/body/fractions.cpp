@@ -6,6 +6,7 @@
 
 #include "gles/body/bounds.h"
 #include "gles/body/distance_grid.h"
+#include "gles/grid_io.h"
 
 namespace eddy::gles {
 namespace {
@@ -72,6 +73,16 @@ bool any_thin_body(const std::vector<BodySetup>& bodies, double cell_m) {
 
 std::vector<Input> FaceFractions::inputs() const {
     return {{"ax", &x.texture()}, {"ay", &y.texture()}, {"az", &z.texture()}};
+}
+
+std::vector<glm::vec3> FaceFractions::download() const {
+    const auto read = [](const Field<Faces4>& a) {
+        return unpack_four(a.texture().download(), a.layout(), a.cells() + 1);
+    };
+    const std::vector<float> ax = read(x), ay = read(y), az = read(z);
+    std::vector<glm::vec3> shares;
+    for (std::size_t i = 0; i < ax.size(); ++i) shares.emplace_back(ax[i], ay[i], az[i]);
+    return shares;
 }
 
 Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::vector<BodySetup>& bodies,

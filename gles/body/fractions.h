@@ -13,6 +13,8 @@ struct FaceFractions {
 
     /// ax, ay, az of the shaders.
     std::vector<Input> inputs() const;
+    /// Of the three lower faces of each cell, x fastest, one layer more each way. Waits for the GPU.
+    std::vector<glm::vec3> download() const;
 };
 
 /// Whether a body is so thin that a coarse grid may hold it in another place than the finest does. A mesh, which may be thin

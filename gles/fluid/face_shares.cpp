@@ -1,31 +1,24 @@
 #include "gles/fluid/face_shares.h"
 
 #include "gles/body/fractions.h"
-#include "gles/fluid/pressure.h"
-#include "gles/grid_io.h"
 
 namespace eddy::gles {
 
 OnFaces face_shares(Gpu& gpu, const FluidSetup& setup, const std::vector<BodyState>& states) {
     BodyUniforms uniforms(gpu, setup.bodies, setup.cell_m);
     uniforms.set(states);
-    Fractions fractions(gpu, multigrid_levels(setup.cells), setup.bodies, setup.cell_m);
-    fractions.update(uniforms, std::vector<Box>(states.size(), {glm::ivec3(0), setup.cells}));
-    const FaceFractions& a = fractions.level(0);
+    Fractions fractions(gpu, {setup.cells}, setup.bodies, setup.cell_m);
+    fractions.update(uniforms, {});  // the first time it draws everything
     const glm::ivec3 n = setup.cells;
-    const auto read = [&](const Field<Faces4>& f) {
-        return unpack_four(f.texture().download(), f.layout(), n + 1);
-    };
-    const std::vector<float> x = read(a.x), y = read(a.y), z = read(a.z);
     OnFaces shares{n, {}};
-    std::size_t i = 0;
-    for (int k = 0; k <= n.z; ++k)
-        for (int j = 0; j <= n.y; ++j)
-            for (int c = 0; c <= n.x; ++c, ++i) {
-                const bool in_x = j < n.y && k < n.z && c > 0 && c < n.x;
-                const bool in_y = c < n.x && k < n.z && j > 0 && j < n.y;
-                const bool in_z = c < n.x && j < n.y && k > 0 && k < n.z;
-                shares.values.emplace_back(in_x ? x[i] : 0.0f, in_y ? y[i] : 0.0f, in_z ? z[i] : 0.0f);
+    for (const glm::vec3& a : fractions.level(0).download()) shares.values.emplace_back(a);
+    for (int z = 0; z <= n.z; ++z)
+        for (int y = 0; y <= n.y; ++y)
+            for (int x = 0; x <= n.x; ++x) {
+                const glm::ivec3 c(x, y, z);
+                const glm::bvec3 on_upper = glm::equal(c, n), on_lower = glm::equal(c, glm::ivec3(0));
+                for (int k = 0; k < 3; ++k)
+                    if (on_lower[k] || glm::any(on_upper)) shares.values[shares.index(c)][k] = 0.0;
             }
     return shares;
 }

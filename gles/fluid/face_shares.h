@@ -16,7 +16,7 @@ struct OnFaces {
     }
 };
 
-/// The fluid's share of every face as the solver sees it, with the bodies at these states; 0 on closed walls.
+/// The fluid's share of every face as the solver sees it, with the bodies at these states; 0 on the tank's walls.
 OnFaces face_shares(Gpu& gpu, const FluidSetup& setup, const std::vector<BodyState>& states);
 
 /// sum a u over all faces, component by component.

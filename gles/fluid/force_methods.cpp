@@ -11,19 +11,7 @@ namespace {
 constexpr int kAround = 1;
 
 glm::ivec3 unit(int axis) {
-    glm::ivec3 e(0);
-    e[axis] = 1;
-    return e;
-}
-
-std::vector<glm::vec3> shares_of(const FaceFractions& a, const glm::ivec3& n) {
-    const auto read = [&](const Field<Faces4>& f) {
-        return unpack_four(f.texture().download(), f.layout(), n + 1);
-    };
-    const std::vector<float> x = read(a.x), y = read(a.y), z = read(a.z);
-    std::vector<glm::vec3> shares;
-    for (std::size_t i = 0; i < x.size(); ++i) shares.emplace_back(x[i], y[i], z[i]);
-    return shares;
+    return glm::ivec3(glm::mat3(1.0f)[axis]);
 }
 
 /// One step's fields, and what a sum over faces asks of them. A face is named by the cell above it and its axis. In units of
@@ -188,7 +176,7 @@ void ForceMethodsPass::keep(Which which, const Field<Faces>& u) {
 void ForceMethodsPass::add_up(const Field<Cells4>& phi, const FaceFractions& a, const BodyUniforms& uniforms,
                               const std::vector<Box>& boxes, double time_s, double dt_s) {
     owners_.draw(uniforms.inputs(), uniforms.uniforms(), {&owner_field_.texture()});
-    std::vector<glm::vec3> shares = shares_of(a, setup_.cells);
+    std::vector<glm::vec3> shares = a.download();
     if (shares_before_.empty()) shares_before_ = shares;
     const Step step{setup_,
                     u_,
