@@ -17,14 +17,11 @@ constexpr double kStiffness = 1e3, kWallStiffness = 1e9;
 /// A body that leans on a wall is held where it would touch if it were turned by this either way [rad].
 constexpr double kTilt = 0.02;
 
-glm::dvec3 unit(int axis) {
-    glm::dvec3 e(0.0);
-    e[axis] = 1.0;
-    return e;
-}
+/// The tank's axes.
+const glm::dmat3 kAxes(1.0);
 
 /// How far a body reaches from its middle in a direction.
-double reach_m(const Shape& shape, const BodyState& state, const glm::dvec3& direction) {
+double reach_from_middle_m(const Shape& shape, const BodyState& state, const glm::dvec3& direction) {
     const glm::dvec3 x(1.0, 0.0, 0.0), from_centre = middle_m(shape, state) - state.centre_m;
     return extent(shape, glm::dquat(direction, x) * state.orientation).high.x -
            glm::dot(direction, from_centre);
@@ -34,22 +31,24 @@ glm::dvec3 velocity_of_middle(const Shape& shape, const BodyState& state) {
     return state.velocity_m_s + glm::cross(state.spin_rad_s, middle_m(shape, state) - state.centre_m);
 }
 
-/// How far the body reaches from its centre towards a wall, `way` 1 or -1 along an axis [m].
-double reach_m(const Shape& shape, const glm::dquat& orientation, int axis, double way) {
-    const Extent e = extent(shape, orientation);
-    return way > 0.0 ? e.high[axis] : -e.low[axis];
+/// How far it reaches from its centre towards a wall, `way` 1 or -1 along an axis [m].
+double reach_to_wall_m(const Extent& body, int axis, double way) {
+    return way > 0.0 ? body.high[axis] : -body.low[axis];
 }
 
 /// The point of its surface that does. How much farther it reaches d, per angle by which it turns about w, is how far
 /// along d x w the point is, for turning moves it by w x r.
 glm::dvec3 farthest_m(const Shape& shape, const glm::dquat& orientation, int axis, double way) {
     constexpr double kSmall = 1e-5;  // [rad]
-    const glm::dvec3 d = way * unit(axis);
-    glm::dvec3 r = reach_m(shape, orientation, axis, way) * d;
+    const glm::dvec3 d = way * kAxes[axis];
+    const auto reach = [&](const glm::dquat& turned) {
+        return reach_to_wall_m(extent(shape, turned), axis, way);
+    };
+    glm::dvec3 r = reach(orientation) * d;
     for (const int other : {(axis + 1) % 3, (axis + 2) % 3}) {
-        const glm::dvec3 w = unit(other);
-        const double gained = reach_m(shape, glm::angleAxis(kSmall, w) * orientation, axis, way) -
-                              reach_m(shape, glm::angleAxis(-kSmall, w) * orientation, axis, way);
+        const glm::dvec3 w = kAxes[other];
+        const double gained =
+            reach(glm::angleAxis(kSmall, w) * orientation) - reach(glm::angleAxis(-kSmall, w) * orientation);
         r += gained / (2.0 * kSmall) * glm::cross(d, w);
     }
     return r;
@@ -57,20 +56,28 @@ glm::dvec3 farthest_m(const Shape& shape, const glm::dquat& orientation, int axi
 
 /// The points by which a wall on that side can hold it: one of a ball, else one for each way to lean.
 std::vector<glm::dvec3> feet_m(const Shape& shape, const glm::dquat& orientation, int axis, double way) {
-    const glm::dvec3 d = way * unit(axis);
+    const glm::dvec3 d = way * kAxes[axis];
     if (const Sphere* ball = std::get_if<Sphere>(&shape)) return {ball->radius_m * d};
     std::vector<glm::dvec3> feet;
     double farthest = -std::numeric_limits<double>::infinity();
     for (const int about : {(axis + 1) % 3, (axis + 2) % 3})
         for (const double angle : {kTilt, -kTilt}) {
-            const glm::dquat lean = glm::angleAxis(angle, unit(about));
+            const glm::dquat lean = glm::angleAxis(angle, kAxes[about]);
             feet.push_back(glm::conjugate(lean) * farthest_m(shape, lean * orientation, axis, way));
             farthest = std::max(farthest, glm::dot(d, feet.back()));
         }
     // On a round surface all of them are a little short of where it touches now.
-    const double lacking = reach_m(shape, orientation, axis, way) - farthest;
+    const double lacking = reach_to_wall_m(extent(shape, orientation), axis, way) - farthest;
     for (glm::dvec3& foot : feet) foot += lacking * d;
     return feet;
+}
+
+/// The middle of the side that its extent turns to a wall: enough where the wall is so far off that turning alone cannot
+/// bring the body to it.
+glm::dvec3 far_foot_m(const Extent& body, int axis, double way) {
+    glm::dvec3 foot = 0.5 * (body.low + body.high);
+    foot[axis] = way * reach_to_wall_m(body, axis, way);
+    return foot;
 }
 
 glm::dvec3 three(const std::vector<double>& x, std::size_t first) {
@@ -96,10 +103,10 @@ std::vector<Contacts::Pair> Contacts::pairs(const std::vector<BodyState>& states
             const glm::dvec3 between = middle_m(one.shape, states[a]) - middle_m(other.shape, states[b]);
             const double distance = glm::length(between);
             // From one and the same place they part upwards and downwards: no way is better.
-            const glm::dvec3 out = distance > 0.0 ? between / distance : unit(1);
+            const glm::dvec3 out = distance > 0.0 ? between / distance : kAxes[1];
             const glm::dvec3 normal = in_container ? -out : out;
-            const double reach = reach_m(one.shape, states[a], -normal);
-            const double reach_of_b = reach_m(other.shape, states[b], out);
+            const double reach = reach_from_middle_m(one.shape, states[a], -normal);
+            const double reach_of_b = reach_from_middle_m(other.shape, states[b], out);
             const double room = in_container ? reach_of_b - distance : distance - reach_of_b;
             result.push_back({a, b, normal, room - reach - kGapCells * setup_->cell_m});
         }
@@ -151,12 +158,17 @@ void Contacts::add_walls(const LinearSystem& system, const std::vector<BodyState
         const Extent all = extent(shape, state.orientation);
         const glm::dvec3 lacking = glm::max(all.high - all.low + 2.0 * gap_m - size, 0.0);
         const double give = 1.0 / (kWallStiffness * largest_inertia(system, *unknowns[i].velocity));
+        const double turning_reach_m = bounding_ball(shape).radius_m;
         for (int axis = 0; axis < 3; ++axis)
-            for (const double way : {-1.0, 1.0})
-                for (const glm::dvec3& foot : feet_m(shape, state.orientation, axis, way)) {
-                    const glm::dvec3 n = -way * unit(axis);
-                    const double x = state.centre_m[axis] + foot[axis];
-                    const double gap = (way > 0.0 ? size[axis] - x : x) - gap_m + 0.5 * lacking[axis];
+            for (const double way : {-1.0, 1.0}) {
+                const double middle = state.centre_m[axis];
+                const double room = (way > 0.0 ? size[axis] - middle : middle) - gap_m + 0.5 * lacking[axis];
+                const bool far = room - reach_to_wall_m(all, axis, way) > turning_reach_m;
+                const std::vector<glm::dvec3> feet = far ? std::vector{far_foot_m(all, axis, way)}
+                                                         : feet_m(shape, state.orientation, axis, way);
+                for (const glm::dvec3& foot : feet) {
+                    const glm::dvec3 n = -way * kAxes[axis];
+                    const double gap = room - way * foot[axis];
                     const double opening =
                         glm::dot(n, state.velocity_m_s + glm::cross(state.spin_rad_s, foot));
                     Contact contact{gap, opening, {{*unknowns[i].velocity, n}}, give};
@@ -164,6 +176,7 @@ void Contacts::add_walls(const LinearSystem& system, const std::vector<BodyState
                         contact.levers.push_back({*unknowns[i].spin, glm::cross(foot, n) / h});
                     contacts_.push_back(contact);
                 }
+            }
     }
 }
 
