@@ -109,8 +109,7 @@ class FlowCheck {
                      another);
             not_yang((item("body", i) + ".turning").c_str(), scene_.bodies[i].turning, another);
         }
-        const Scene::Walls& w = scene_.tank.walls;
-        for (const Scene::Wall* wall : {&w.x_low, &w.x_high, &w.y_low, &w.y_high, &w.z_low, &w.z_high})
+        for (const Scene::Wall* wall : scene_.tank.walls.all())
             if (wall->kind == WallKind::Inflow || wall->kind == WallKind::Open)
                 return not_yang("tank.walls", true, another);
         if (s.viscous_cycles && scene_.fluid.viscosity_pa_s == 0.0 && !rules_.blamed("fluid.viscosity_pa_s"))

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -33,6 +34,10 @@ struct Scene {
         Wall z_low;
         Wall z_high;
         bool operator==(const Walls&) const = default;
+
+        /// In this order.
+        std::array<const Wall*, 6> all() const { return {&x_low, &x_high, &y_low, &y_high, &z_low, &z_high}; }
+        std::array<Wall*, 6> all() { return {&x_low, &x_high, &y_low, &y_high, &z_low, &z_high}; }
     };
 
     struct Tank {

@@ -143,11 +143,9 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
     s.density_kg_m3 = scene.fluid.density_kg_m3;
     s.viscosity_pa_s = scene.fluid.viscosity_pa_s;
     s.gravity_m_s2 = scene.fluid.gravity_m_s2;
-    const Scene::Walls& w = scene.tank.walls;
     std::string all_glsl;
-    s.walls = {wall_setup(w.x_low, all_glsl), wall_setup(w.x_high, all_glsl),
-               wall_setup(w.y_low, all_glsl), wall_setup(w.y_high, all_glsl),
-               wall_setup(w.z_low, all_glsl), wall_setup(w.z_high, all_glsl)};
+    const auto walls = scene.tank.walls.all();
+    for (std::size_t i = 0; i < walls.size(); ++i) s.walls[i] = wall_setup(*walls[i], all_glsl);
     if (scene.vorticity_confinement) s.confinement_1_s = scene.vorticity_confinement->strength_1_s;
     if (scene.forcing) s.acceleration_m_s2 = glsl(scene.forcing->acceleration_m_s2, all_glsl);
     if (scene.imposed)

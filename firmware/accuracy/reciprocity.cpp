@@ -66,9 +66,7 @@ std::vector<double> of_added_mass(Laboratory& lab, const Scene& scene) {
 std::vector<double> of_resistance(Laboratory& lab, const Scene& scene) {
     Scene one = without_swings(scene);
     one.bodies.erase(one.bodies.begin());
-    Scene::Walls& w = one.tank.walls;
-    for (Scene::Wall* wall : {&w.x_low, &w.x_high, &w.y_low, &w.y_high, &w.z_low, &w.z_high})
-        wall->kind = WallKind::NoSlip;
+    for (Scene::Wall* wall : one.tank.walls.all()) wall->kind = WallKind::NoSlip;
     one.fluid.viscosity_pa_s = 1000.0;
     one.outputs.duration_s = 12.0 * one.solver.dt_s;
     return {asymmetry(matrix(lab, one))};
