@@ -184,6 +184,7 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
     for (const Scene::Body& body : scene.bodies)
         s.bodies.push_back({shape(body, s.cell_m), body.inside_out, body.force, body.torque,
                             coupled(body, s.density_kg_m3)});
+    s.force_methods = scene.outputs.force_methods;
     s.solver = solver_setup(scene.solver);
     return s;
 }

@@ -25,6 +25,13 @@ gles::Extent held_extent(const Scene& scene, const gles::FluidSetup& fluid) {
     return {glm::dvec3(0.0), glm::dvec3(0.0)};
 }
 
+/// Of what outputs ask for, nothing is written here; and to measure the force in more ways, each step waits for the GPU.
+gles::FluidSetup shown(const Scene& scene) {
+    gles::FluidSetup setup = fluid_setup(scene);
+    setup.force_methods = false;
+    return setup;
+}
+
 }  // namespace
 
 HapticOrders orders_for(const Scene& scene, const gles::FluidSetup& fluid) {
@@ -43,7 +50,7 @@ Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange)
     : scene_(scene),
       exchange_(exchange),
       motions_(scene),
-      fluid_(gles::make_fluid(gpu, fluid_setup(scene))),
+      fluid_(gles::make_fluid(gpu, shown(scene))),
       states_(motions_.at(0.0, scene.solver.dt_s)) {}
 
 void Show::warm_up() {

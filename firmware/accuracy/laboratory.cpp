@@ -9,18 +9,8 @@ namespace eddy::accuracy {
 
 using Clock = std::chrono::steady_clock;
 
-namespace {
-
-gles::FluidSetup setup_of(const Scene& scene) {
-    gles::FluidSetup setup = fluid_setup(scene);
-    setup.force_methods = scene.outputs.force_methods;
-    return setup;
-}
-
-}  // namespace
-
 Run::Run(gles::Gpu& gpu, const Scene& scene, std::vector<double>& step_ms, Progress& progress)
-    : fluid_(gles::make_fluid(gpu, setup_of(scene))),
+    : fluid_(gles::make_fluid(gpu, fluid_setup(scene))),
       motions_(scene),
       dt_s_(scene.solver.dt_s),
       steps_(std::lround(scene.outputs.duration_s / dt_s_)),

@@ -114,8 +114,7 @@ int simulate(const SimulateOptions& options) {
     const LoadedScene loaded = load_scene(options.scene, options.set);
     const Scene& scene = loaded.scene;
     const BodySchedule motions(scene);
-    gles::FluidSetup setup = fluid_setup(scene);
-    setup.force_methods = scene.outputs.force_methods;
+    const gles::FluidSetup setup = fluid_setup(scene);
     const double dt = scene.solver.dt_s;
     const long steps = steps_of(options, scene);
     if (!options.out.empty() && !options.plan) prepare_folder("--out", options.out);

@@ -30,6 +30,12 @@ TEST(FluidSetup, OfEachPresetIsWhatItsNameSays) {
     EXPECT_EQ(yang.jacobi_sweeps, 40);
 }
 
+TEST(FluidSetup, MeasuresTheForceInMoreWaysWhereTheSceneAsksForIt) {
+    const std::string ball = "[[body]]\nradius_m = 0.02\n[outputs]\nforce_methods = ";
+    EXPECT_TRUE(setup_of(ball + "true\n").force_methods);
+    EXPECT_FALSE(setup_of(ball + "false\n").force_methods);
+}
+
 TEST(FluidSetup, TakesWhatTheSceneStatesOverThePreset) {
     const gles::SolverSetup s =
         setup_of("[solver]\npreset = \"precise\"\nadvection = \"semi_lagrangian\"\ncycles = 7\n").solver;

@@ -176,6 +176,12 @@ TEST_F(ShowTest, WithoutAHandNothingIsPublished) {
     EXPECT_EQ(show.figures().steps, 3);
 }
 
+TEST_F(ShowTest, MeasuresNoForceThatOnlyAFileWouldTell) {
+    Show show(gpu, scene_with("[outputs]\nforce_methods = true\n"), exchange);
+    show.update(20ms, kDt, false);
+    EXPECT_TRUE(show.fluid().force_methods().empty());
+}
+
 TEST(HapticOrders, KeepTheBallInTheTankAndCarryTheScenesGain) {
     const Scene scene = scene_with("");
     const HapticOrders orders = orders_for(scene, fluid_setup(scene));
