@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "firmware/accuracy/case.h"
+#include "firmware/accuracy/references.h"
 #include "gles/body/mass_properties.h"
 
 // B2   A ball that speeds up at a in an inviscid fluid feels F = -C_m rho V a, whatever the time step.
@@ -35,24 +36,24 @@ std::vector<Case> added_mass_cases() {
     };
     const std::string mfs = "method of fundamental solutions, residual below 1e-4: a / L = 0.1";
     const std::string shell = "(1 + 2 l^3) / (2 (1 - l^3)), l = 0.4 (Lamb, Hydrodynamics)";
-    return {
-        {.name = "B2-box",
-         .title = "added mass of a ball in the middle of a cubic box; 60 cells: a radius of 6",
-         .scene = "validation/B2-box",
-         .quick = {30, 60},
-         .full = {30, 45, 60, 90},
-         .quantities = {c_m("C_m", 0.50730, mfs, {{30, 0.04}, {60, 0.012}}),
-                        c_m("C_m off the cells", 0.50730, "the same, 0.57 cells off the middle",
-                            {{30, 0.04}, {60, 0.012}})},
-         .measure = at_places},
-        {.name = "B2-shell",
-         .title = "added mass of a ball in a round shell; 26 cells: radii of 4.8 and 12",
-         .scene = "validation/B2-shell",
-         .quick = {26},
-         .full = {26, 39, 52},
-         .quantities = {c_m("C_m", 0.60256, shell, {{26, 0.02}}),
-                        c_m("C_m off the cells", 0.60256, "the same, both 0.57 cells aside", {{26, 0.02}})},
-         .measure = at_places}};
+    return {{.name = "B2-box",
+             .title = "added mass of a ball in the middle of a cubic box; 60 cells: a radius of 6",
+             .scene = "validation/B2-box",
+             .quick = {30, 60},
+             .full = {30, 45, 60, 90},
+             .quantities = {c_m("C_m", references::kAddedMassInBox, mfs, {{30, 0.04}, {60, 0.012}}),
+                            c_m("C_m off the cells", references::kAddedMassInBox,
+                                "the same, 0.57 cells off the middle", {{30, 0.04}, {60, 0.012}})},
+             .measure = at_places},
+            {.name = "B2-shell",
+             .title = "added mass of a ball in a round shell; 26 cells: radii of 4.8 and 12",
+             .scene = "validation/B2-shell",
+             .quick = {26},
+             .full = {26, 39, 52},
+             .quantities = {c_m("C_m", references::kAddedMassInShell, shell, {{26, 0.02}}),
+                            c_m("C_m off the cells", references::kAddedMassInShell,
+                                "the same, both 0.57 cells aside", {{26, 0.02}})},
+             .measure = at_places}};
 }
 
 }  // namespace eddy::accuracy

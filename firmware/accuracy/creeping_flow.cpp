@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "firmware/accuracy/case.h"
+#include "firmware/accuracy/references.h"
 
 // B3   A ball that moves slowly in a cube of no-slip walls feels 6 pi mu a U times K (Stokes 1851), here K(a / L = 0.2).
 // B4   One that turns feels the torque 8 pi mu a^3 Omega times K_r.
@@ -65,14 +66,14 @@ std::vector<Case> creeping_flow_cases() {
              .scene = "validation/B3",
              .quick = {20, 32},
              .full = {20, 25, 32, 48, 64},
-             .quantities = factors("K", 3.12346),
+             .quantities = factors("K", references::kDragInBox),
              .measure = drag},
             {.name = "B4",
              .title = "torque on a turning ball in a no-slip cube over 8 pi mu a^3 Omega",
              .scene = "validation/B4",
              .quick = {20, 32},
              .full = {20, 25, 32, 48, 64},
-             .quantities = factors("K_r", 1.04749),
+             .quantities = factors("K_r", references::kTorqueInBox),
              .measure = torque}};
 }
 

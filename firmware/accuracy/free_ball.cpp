@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "firmware/accuracy/case.h"
+#include "firmware/accuracy/references.h"
 
 // B10  A ball that is let go in a fluid at rest sets off with (rho_b - rho) g / (rho_b + C_m rho), however light it is.
 
@@ -10,7 +11,6 @@ namespace eddy::accuracy {
 namespace {
 
 constexpr double kDensities[] = {0.01, 0.1, 2.0};  // of the ball over that of the fluid
-constexpr double kAddedMass = 0.56047;             // in the middle of a cubic box, a / L = 0.2
 
 /// Downwards, over g.
 std::vector<double> first_acceleration(Laboratory& lab) {
@@ -33,8 +33,10 @@ std::vector<Case> free_ball_cases() {
     for (const double density : kDensities)
         accelerations.push_back(
             {.name = fmt::format("a / g, {} as dense", density),
-             .exact = (density - 1.0) / (density + kAddedMass),
-             .source = "C_m = 0.56047: method of fundamental solutions, residual below 1e-4: a / L = 0.2",
+             .exact = (density - 1.0) / (density + references::kAddedMassInTightBox),
+             .source =
+                 fmt::format("C_m = {}: method of fundamental solutions, residual below 1e-4: a / L = 0.2",
+                             references::kAddedMassInTightBox),
              .error = Quantity::Error::Relative,
              .limits = {{24, 0.03}}});
     return {{.name = "B10",

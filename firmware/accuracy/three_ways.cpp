@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "firmware/accuracy/case.h"
+#include "firmware/accuracy/references.h"
 #include "firmware/force_comparison.h"
 #include "gles/body/mass_properties.h"
 
@@ -30,9 +31,9 @@ ExactForce inertia(double added_mass) {
 }
 
 glm::dvec3 drag(const Scene& scene, const Run&) {
-    constexpr double kWalls = 3.12346;  // of B3
     const Scene::Body& ball = scene.bodies[0];
-    return -kWalls * 6.0 * std::numbers::pi * scene.fluid.viscosity_pa_s * ball.radius_m * ball.velocity_m_s;
+    return -references::kDragInBox * 6.0 * std::numbers::pi * scene.fluid.viscosity_pa_s * ball.radius_m *
+           ball.velocity_m_s;
 }
 
 /// Force over what it should be, and spread of the three ways: where the scene has the ball, and half a cell off.
@@ -81,9 +82,9 @@ std::vector<Case> three_ways_cases() {
     return {three_ways("F1-rest", "three ways to measure the lift of a ball at rest, and its error",
                        "validation/B1-sphere", {16, 24}, {16, 24, 32, 48}, "Archimedes, as B1", lift),
             three_ways("F1-box", "the same of a ball that speeds up in a box", "validation/B2-box", {24, 30},
-                       {24, 30, 40, 60}, "added mass, as B2-box", inertia(0.50730)),
+                       {24, 30, 40, 60}, "added mass, as B2-box", inertia(references::kAddedMassInBox)),
             three_ways("F1-shell", "the same in a shell", "validation/B2-shell", {26}, {26, 39, 52},
-                       "added mass, as B2-shell", inertia(0.60256)),
+                       "added mass, as B2-shell", inertia(references::kAddedMassInShell)),
             three_ways("F1-drag", "the same in creeping flow", "validation/B3", {16, 24}, {16, 24, 32, 48},
                        "Stokes drag between walls, as B3", drag)};
 }

@@ -7,6 +7,7 @@
 #include "config/diagnostic.h"
 #include "config/nearest.h"
 #include "firmware/accuracy/convergence.h"
+#include "firmware/accuracy/references.h"
 #include "firmware/accuracy/study.h"
 #include "firmware/input_error.h"
 #include "gles/body/mass_properties.h"
@@ -45,7 +46,6 @@ glm::dvec3 force_on_first_body(const Run& run, const gles::StepResult& result, F
 /// cell; C_m hardly changes by that (image dipoles: 1e-4).
 double set_off(Laboratory& lab, const Setting& setting) {
     constexpr int kPlaces = 4;
-    constexpr double kAddedMass = 0.50730;  // case B2-box
     double worst = 0.0;
     for (int i = 0; i < kPlaces; ++i) {
         Scene scene = lab.scene();
@@ -56,8 +56,8 @@ double set_off(Laboratory& lab, const Setting& setting) {
         Run run = lab.start(scene);
         const glm::dvec3 force = force_on_first_body(run, run.step(), setting.force);
         const double volume = gles::mass_properties(run.setup().bodies[0].shape).volume_m3;
-        const glm::dvec3 exact =
-            -kAddedMass * scene.fluid.density_kg_m3 * volume / run.dt_s() * ball.velocity_m_s;
+        const glm::dvec3 exact = -references::kAddedMassInBox * scene.fluid.density_kg_m3 * volume /
+                                 run.dt_s() * ball.velocity_m_s;
         worst = worse(worst, std::abs(glm::dot(force, exact) / glm::dot(exact, exact) - 1.0));
     }
     return worst;
