@@ -45,6 +45,7 @@ struct Case {
     std::vector<std::string> set = {};  ///< what is changed in it, as --set takes it
     TimeStep time_step = TimeStep::Same;
     std::vector<int> quick = {};  ///< cells along the longest side; none: the case is only run in full
+    int parts = 1;  ///< of the scene's time, all alike, each of which is a whole number of steps
     std::vector<int> full = {};
     std::vector<Quantity> quantities = {};
     /// The quantities, in their order, on the laboratory's grid.

@@ -47,8 +47,8 @@ Scene scene_on_grid(const Case& one, int cells) {
     Scene scene = with_longest_side(written, cells);
     const double finer = written.tank.cell_m() / scene.tank.cell_m();
     const double dt = written.solver.dt_s / std::pow(finer, power_of_h(one.time_step));
-    const double steps = std::max(1.0, std::round(scene.outputs.duration_s / dt));
-    scene.solver.dt_s = scene.outputs.duration_s / steps;
+    const double part_s = scene.outputs.duration_s / one.parts;
+    scene.solver.dt_s = part_s / std::max(1.0, std::round(part_s / dt));
     return scene;
 }
 

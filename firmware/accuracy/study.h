@@ -40,7 +40,7 @@ struct Study {
 };
 
 /// The case's scene with so many cells along its longest side, and the time step that goes with them: as near to the
-/// rule as a whole number of steps allows. Throws InputError if the grid does not fit the tank.
+/// rule as a whole number of steps in each of its parts allows. Throws InputError if the grid does not fit the tank.
 Scene scene_on_grid(const Case& one, int cells);
 
 /// The error of a measured value.

@@ -42,6 +42,7 @@ Case swinging(const std::string& name, const std::string& title, const std::vect
              .scene = "validation/B5",
              .set = set,
              .time_step = TimeStep::Courant,
+             .parts = 3,  // half swings
              .quick = {34},
              .full = {34, 51, 68},
              .measure = damping_and_inertia};
@@ -119,6 +120,7 @@ Case set_going() {
              .title = "force on a ball that is set going in glycerine, over 6 pi mu a U",
              .scene = "validation/B5-start",
              .time_step = TimeStep::Courant,
+             .parts = 4,  // each of kTimes is one, two or all of them
              .quick = {34},
              .full = {34, 51, 68},
              .measure = resistances};

@@ -92,6 +92,16 @@ TEST(Study, RunsACaseOnEachGridCoarsestFirstAndCountsItsSteps) {
         accuracy::Run run = lab.start();
         run.step_to_end();
         return std::vector<double>{run.dt_s()};
+TEST(Study, TakesAWholeNumberOfStepsForEachPartOnAnyGrid) {
+    // B5: a swing and a half in 48 steps on 34 cells; B5-start: forces at a quarter, a half and the end of 32.
+    for (int cells = 20; cells <= 70; ++cells)
+        for (const auto& [name, part_s] :
+             {std::pair("B5-glycerine", 0.25), std::pair("B5-start", 0.08922379 / 4.0)}) {
+            const double steps = part_s / scene_on_grid(*cases_named(name).front(), cells).solver.dt_s;
+            EXPECT_NEAR(steps, std::round(steps), 1e-9) << name << " on " << cells;
+        }
+}
+
     };
     const Study made = study(gles::shared_gpu(), one, {16, 8, 16});
     ASSERT_EQ(made.rows.size(), 2u);
