@@ -25,7 +25,8 @@ struct Limit {
 struct Quantity {
     enum class Error {
         Relative,  ///< |measured - exact| / |exact|
-        Absolute   ///< |measured - exact|
+        Absolute,  ///< |measured - exact|
+        Shortfall  ///< exact - measured; 0 where it is more
     };
     std::string name = {};
     double exact = 0.0;
@@ -44,8 +45,8 @@ struct Case {
     std::string scene = {};             ///< a shipped one: "validation/B2"
     std::vector<std::string> set = {};  ///< what is changed in it, as --set takes it
     TimeStep time_step = TimeStep::Same;
-    std::vector<int> quick = {};  ///< cells along the longest side; none: the case is only run in full
     int parts = 1;  ///< of the scene's time, all alike, each of which is a whole number of steps
+    std::vector<int> quick = {};  ///< cells along the longest side; none: the case is only run in full
     std::vector<int> full = {};
     std::vector<Quantity> quantities = {};
     /// The quantities, in their order, on the laboratory's grid.

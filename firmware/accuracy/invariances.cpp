@@ -113,6 +113,7 @@ double distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>&
     return std::sqrt(sum);
 }
 
+/// On 50 cells `precise` falls short: of order 0.7, with 9 cycles of the pressure as with 3.
 std::vector<double> change_with_step(Laboratory& lab, const Scene& scene) {
     const auto whole = last_forces(lab, scene, 1), half = last_forces(lab, scene, 2),
                quarter = last_forces(lab, scene, 4);
@@ -149,6 +150,7 @@ Scene in_units(Scene scene, double m, double kg, double s) {
         body.centre_m *= m;
         body.radius_m *= m;
         body.size_m *= m;
+        if (!body.oscillation) continue;
         body.oscillation->amplitude_m *= m;
         body.oscillation->frequency_hz /= s;
     }
@@ -198,7 +200,11 @@ std::vector<Case> invariance_cases() {
              .full = {26, 39, 52}}),
         at_both_presets({.name = "B8.8",
                          .title = "the force at dt, dt / 2 and dt / 4",
-                         .quantities = {{.name = "order", .exact = 1.0, .source = "first-order splitting"},
+                         .quantities = {{.name = "order",
+                                         .exact = 1.0,
+                                         .source = "first-order splitting",
+                                         .error = Quantity::Error::Shortfall,
+                                         .limits = {{25, 0.2}}},
                                         {.name = "F(dt) - F(dt / 2), / F",
                                          .source = "the same motion",
                                          .limits = {{25, 0.1}}}},

@@ -75,7 +75,7 @@ std::string extrapolated(const Study& study) {
     std::string text;
     if (study.rows.size() < 3) return text;
     for (std::size_t q = 0; q < study.of->quantities.size(); ++q) {
-        if (study.of->quantities[q].error == Quantity::Error::Absolute)
+        if (study.of->quantities[q].error != Quantity::Error::Relative)
             continue;  // the value is an error itself
         std::array<Result, 3> finest;
         for (std::size_t i = 0; i < 3; ++i) {

@@ -6,14 +6,22 @@
 namespace eddy::accuracy {
 namespace {
 
+const char* word(Quantity::Error error) {
+    switch (error) {
+        case Quantity::Error::Relative:
+            return "relative";
+        case Quantity::Error::Absolute:
+            return "absolute";
+        case Quantity::Error::Shortfall:
+            return "shortfall";
+    }
+    throw std::logic_error("an error without a word");
+}
+
 nlohmann::ordered_json json_of(const Quantity& quantity, const Reading& reading) {
-    nlohmann::ordered_json j{
-        {"name", quantity.name},
-        {"measured", reading.measured},
-        {"exact", quantity.exact},
-        {"source", quantity.source},
-        {"error", reading.error},
-        {"error_is", quantity.error == Quantity::Error::Relative ? "relative" : "absolute"}};
+    nlohmann::ordered_json j{{"name", quantity.name},   {"measured", reading.measured},
+                             {"exact", quantity.exact}, {"source", quantity.source},
+                             {"error", reading.error},  {"error_is", word(quantity.error)}};
     if (reading.order) j["order"] = *reading.order;
     if (reading.limit) j["limit"] = *reading.limit;
     if (reading.least_order) j["least_order"] = *reading.least_order;

@@ -54,7 +54,15 @@ Scene scene_on_grid(const Case& one, int cells) {
 
 double error_of(const Quantity& quantity, double measured) {
     const double difference = std::abs(measured - quantity.exact);
-    return quantity.error == Quantity::Error::Relative ? difference / std::abs(quantity.exact) : difference;
+    switch (quantity.error) {
+        case Quantity::Error::Relative:
+            return difference / std::abs(quantity.exact);
+        case Quantity::Error::Absolute:
+            return difference;
+        case Quantity::Error::Shortfall:
+            return measured >= quantity.exact ? 0.0 : difference;
+    }
+    throw std::logic_error("an error without a rule");
 }
 
 std::optional<double> limit_on(const Quantity& quantity, int cells) {

@@ -42,6 +42,17 @@ TEST(Study, CountsAnErrorToEitherSideAndMissesWhatIsNotANumber) {
     EXPECT_EQ(judged(kPi, 3.3, std::nan(""))[1].readings[0].verdict, Verdict::Missed);
 }
 
+TEST(Study, CountsOnlyWhatIsLackingWhereMoreIsNoFault) {
+    Quantity quantity = kPi;
+    quantity.error = Quantity::Error::Shortfall;
+    const std::vector<Row> more = judged(quantity, 2.9, 3.5);
+    EXPECT_NEAR(more[0].readings[0].error, 0.1, 1e-12);
+    EXPECT_EQ(more[1].readings[0].error, 0.0);
+    EXPECT_EQ(more[1].readings[0].verdict, Verdict::Met);
+    EXPECT_EQ(judged(quantity, 2.9, 2.98)[1].readings[0].verdict, Verdict::Missed);
+    EXPECT_EQ(judged(quantity, 2.9, std::nan(""))[1].readings[0].verdict, Verdict::Missed);
+}
+
 TEST(Study, JudgesTheOrderOnTheFinestGridOnly) {
     Quantity quantity = kPi;
     quantity.limits.clear();
@@ -81,6 +92,16 @@ TEST(Study, TakesAWholeNumberOfStepsNearTheRule) {
     EXPECT_EQ(scene_on_grid(one, 30).tank.cells, glm::ivec3(30));
 }
 
+TEST(Study, TakesAWholeNumberOfStepsForEachPartOnAnyGrid) {
+    // B5: a swing and a half in 48 steps on 34 cells; B5-start: forces at a quarter, a half and the end of 32.
+    for (int cells = 20; cells <= 70; ++cells)
+        for (const auto& [name, part_s] :
+             {std::pair("B5-glycerine", 0.25), std::pair("B5-start", 0.08922379 / 4.0)}) {
+            const double steps = part_s / scene_on_grid(*cases_named(name).front(), cells).solver.dt_s;
+            EXPECT_NEAR(steps, std::round(steps), 1e-9) << name << " on " << cells;
+        }
+}
+
 TEST(Study, RefusesAGridThatDoesNotFillTheTankWithCubes) {
     EXPECT_THROW(scene_on_grid(*cases_named("B1-shapes").front(), 65), InputError);
 }
@@ -92,16 +113,6 @@ TEST(Study, RunsACaseOnEachGridCoarsestFirstAndCountsItsSteps) {
         accuracy::Run run = lab.start();
         run.step_to_end();
         return std::vector<double>{run.dt_s()};
-TEST(Study, TakesAWholeNumberOfStepsForEachPartOnAnyGrid) {
-    // B5: a swing and a half in 48 steps on 34 cells; B5-start: forces at a quarter, a half and the end of 32.
-    for (int cells = 20; cells <= 70; ++cells)
-        for (const auto& [name, part_s] :
-             {std::pair("B5-glycerine", 0.25), std::pair("B5-start", 0.08922379 / 4.0)}) {
-            const double steps = part_s / scene_on_grid(*cases_named(name).front(), cells).solver.dt_s;
-            EXPECT_NEAR(steps, std::round(steps), 1e-9) << name << " on " << cells;
-        }
-}
-
     };
     const Study made = study(gles::shared_gpu(), one, {16, 8, 16});
     ASSERT_EQ(made.rows.size(), 2u);
