@@ -23,18 +23,24 @@ const float kNothing = 1e-37;
 void main() {
     ivec3 c = cell_here(TARGET);
     vec4 left = at(r, TARGET, c), sums = texelFetch(products, ivec2(0), 0);
-    p = at(z, TARGET, c);
-    q = left - at(r_z, TARGET, c);
-    float square = sums.x;
-#ifndef FIRST
+    new_phi = scale * at(phi, TARGET, c);
+    new_r = left;
+#ifdef FIRST
+    const float beta = 0.0;
+    p = q = vec4(0.0);
+#else
     float beta = sums.y / max(sums.z, kNothing);
-    p -= beta * at(p_last, TARGET, c);
-    q -= beta * at(q_last, TARGET, c);
-    // A correction along the last direction says nothing new; what rounding leaves of it is no direction.
-    square -= beta * sums.y;
-    if (square < 1e-4 * sums.x) square = 0.0;
+    p = at(p_last, TARGET, c);
+    q = at(q_last, TARGET, c);
 #endif
-    float alpha = square > kNothing ? sums.w / square : 0.0;
-    new_phi = scale * at(phi, TARGET, c) + alpha * p;
-    new_r = left - alpha * q;
+    float square = sums.x - beta * sums.y;
+    // Else nothing is corrected, and the last direction stays: a correction along it says nothing new, and what rounding leaves
+    // is no direction. Nor is it so for sums that are not numbers: one such value in r would get to every cell of phi.
+    if (square > max(1e-4 * sums.x, kNothing)) {
+        p = at(z, TARGET, c) - beta * p;
+        q = left - at(r_z, TARGET, c) - beta * q;
+        float alpha = sums.w / square;
+        new_phi += alpha * p;
+        new_r -= alpha * q;
+    }
 }

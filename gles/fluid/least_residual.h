@@ -9,6 +9,7 @@ namespace eddy::gles {
 /// Conjugate residuals with the multigrid cycle as preconditioner, ORTHOMIN(1) of Vinsome 1976: of every correction z that a
 /// cycle proposes for  A phi = b,  mixed with the direction taken last, only so much is taken as leaves the least residual.
 /// However badly a cycle fits its equation, it then cannot make the residual grow; and one that leaves 0.85 leaves about half.
+/// A residual that is not a number somewhere is not corrected at all.
 class LeastResidual {
   public:
     LeastResidual(Gpu& gpu, const glm::ivec3& cells);
@@ -30,7 +31,9 @@ class LeastResidual {
     TexturePool::Lease products_;
     Passes first_, next_;
     Reduce sum_;
-    Field<Cells4> p_, q_;  ///< the last direction, and A of it; none after restart()
+    /// The last direction, and A of it; none after restart(). Nobody says which cycle is the last: they are held until the
+    /// next equation, and the rest of a step does without these two textures.
+    Field<Cells4> p_, q_;
 };
 
 }  // namespace eddy::gles
