@@ -1,5 +1,7 @@
 #include "gles/fluid/projection.h"
 
+#include <stdexcept>
+
 namespace eddy::gles {
 namespace {
 
@@ -16,9 +18,13 @@ Variant variant(const FluidSetup& setup, const Walls& walls, bool cut) {
     return v;
 }
 
+bool predicts(const FluidSetup& setup) {
+    return setup.viscosity_pa_s > 0.0;
+}
+
 Variant project_variant(const FluidSetup& setup, const Walls& walls, bool cut) {
     Variant v = variant(setup, walls, cut);
-    if (setup.viscosity_pa_s > 0.0) v.defines.emplace_back("PREDICTS", "");
+    if (predicts(setup)) v.defines.emplace_back("PREDICTS", "");
     return v;
 }
 
@@ -49,6 +55,7 @@ Projection::Projection(Gpu& gpu, const FluidSetup& setup, const Walls& walls, co
     : gpu_(&gpu),
       fractions_(fractions),
       bodies_(&bodies),
+      predicts_(predicts(setup)),
       divergence_(gpu, "divergence", kDivergence, Cells4::layout(setup.cells), variant(setup, walls, false)),
       project_(gpu, "project", kProject, Faces::layout(setup.cells), project_variant(setup, walls, false)) {
     if (walls.let_through())
@@ -84,6 +91,7 @@ Field<Cells4> Projection::divergence(const Field<Faces>& u, const std::vector<Bo
 
 Field<Faces> Projection::project(const Field<Faces>& u, const Field<Cells4>& phi, float scale,
                                  const std::vector<Box>& boxes, const Uniform& wall_time) {
+    if (!predicts_ && scale != 1.0f) throw std::logic_error("the pressure of another step without viscosity");
     Field<Faces> next(*gpu_, u.cells(), Format::RGBA32F);
     std::vector<Input> inputs{{"velocity", &u.texture()}, {"phi", &phi.texture()}};
     std::vector<Uniform> uniforms{{"scale", scale}, wall_time};

@@ -18,7 +18,8 @@ class Projection {
 
     /// div (a u + (1 - a) u_solid). `boxes`: around the bodies; `wall_time`: see Walls.
     Field<Cells4> divergence(const Field<Faces>& u, const std::vector<Box>& boxes, const Uniform& wall_time);
-    /// u - scale grad phi, and on walls and in solids their velocity.
+    /// u - scale grad phi, and on walls and in solids their velocity. Where there is no viscous step that would start with the
+    /// pressure of the last one, phi is always this step's and `scale` must be 1: the shader has none.
     Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale,
                          const std::vector<Box>& boxes, const Uniform& wall_time);
 
@@ -29,6 +30,7 @@ class Projection {
     Gpu* gpu_;
     const Fractions* fractions_;
     const BodyUniforms* bodies_;
+    bool predicts_;
     Pass divergence_, project_;
     std::optional<Pass> divergence_cut_, project_cut_;
     std::optional<Pass> project_at_walls_;  ///< of which any lets fluid through
