@@ -70,7 +70,7 @@ TEST_F(ThinPlate, LetsTheCyclesConvergeWhereverItStands) {
         }
 }
 
-// Between open ends, all that holds the falling fluid is its friction along the plate. The half cells at the ends are not felt.
+// Between open ends, all that holds the falling fluid is its friction along the plate. The half cells at the ends are not felt (traction.frag).
 TEST_F(ThinPlate, CarriesTheWholeWeightOfAThickFluidWhereverItStands) {
     const glm::ivec3 n(16, 8, 9);
     FluidSetup s = unit_tank(n, 0.0, Advection::SemiLagrangian, 3);
