@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "tests/physics/tank.h"
@@ -59,15 +60,24 @@ std::vector<double> left_over(Gpu& gpu, const glm::ivec3& n, double thickness, i
 }
 
 TEST_F(ThinPlate, LetsTheCyclesConvergeWhereverItStands) {
+    // Measured when the limits were set: 0.885 at the worst place, 0.381 on average.
+    double worst = 0.0, mean = 0.0;
+    int places = 0;
     for (const glm::ivec3 n : {glm::ivec3(16, 12, 12), glm::ivec3(17, 12, 13), glm::ivec3(24, 12, 16)})
         for (const double thickness : {0.3, 0.7, 1.0, 2.0, 2.5}) {
             const std::vector<double> few = left_over(gpu, n, thickness, 1),
                                       many = left_over(gpu, n, thickness, 7);
             for (std::size_t i = 0; i < few.size(); ++i) {
                 const double rate = std::pow(many[i] / few[i], 1.0 / 6.0);
-                EXPECT_LT(rate, 0.97) << thickness << " cells thick, " << n.x << " cells, place " << i;
+                worst = std::max(worst, rate);
+                mean += rate;
+                ++places;
+                EXPECT_LT(rate, 0.92) << thickness << " cells thick, " << n.x << " cells, place " << i;
             }
         }
+    record("worst_rate", worst);
+    record("mean_rate", mean / places);
+    EXPECT_LT(mean / places, 0.42);
 }
 
 // Between open ends, all that holds the falling fluid is its friction along the plate. The half cells at the ends are not felt (traction.frag).
