@@ -190,28 +190,33 @@ TEST(Simulate, GoesOnFromTheVelocityOfAnEarlierRun) {
     EXPECT_LT(difference, 1e-3 * change);
 }
 
-TEST(Simulate, MeasuresTheForceThreeWaysWhereASceneAsksForIt) {
-    const ScratchFolder folder;
-    const std::string out = folder / "out";
-    const std::string scene = folder.write("two.toml", R"(
+/// A ball that speeds up beside a box, their forces measured three ways. `more`: of the box.
+std::string ball_and_box(const std::string& more) {
+    return R"(
 [tank]
 size_m = [0.16, 0.16, 0.16]
 cells = [16, 16, 16]
+[outputs]
+force_methods = true
 [[body]]
-name = "first"
+name = "ball"
 shape = "sphere"
 radius_m = 0.03
 centre_m = [0.05, 0.06, 0.08]
 motion = "prescribed"
 acceleration_m_s2 = [1, 0, 0]
 [[body]]
-name = "second"
+name = "box"
 shape = "box"
 size_m = [0.04, 0.04, 0.04]
 centre_m = [0.11, 0.1, 0.08]
-[outputs]
-force_methods = true
-)");
+)" + more;
+}
+
+TEST(Simulate, MeasuresTheForceThreeWaysWhereASceneAsksForIt) {
+    const ScratchFolder folder;
+    const std::string out = folder / "out";
+    const std::string scene = folder.write("two.toml", ball_and_box(""));
     const Ended ended = eddy({"simulate", scene, "--steps", "3", "--out", out});
     ASSERT_EQ(ended.status, 0) << ended.err;
     const std::vector<std::string> lines = lines_of(read_all(out + "/series.csv"));
@@ -241,35 +246,14 @@ force_methods = true
 TEST(Simulate, ComparesNoForcesOnABodyWhoseForceIsNotMeasured) {
     const ScratchFolder folder;
     const std::string out = folder / "out";
-    const std::string scene = folder.write("two.toml", R"(
-[tank]
-size_m = [0.16, 0.16, 0.16]
-cells = [16, 16, 16]
-[[body]]
-name = "felt"
-shape = "sphere"
-radius_m = 0.03
-centre_m = [0.05, 0.06, 0.08]
-motion = "prescribed"
-acceleration_m_s2 = [1, 0, 0]
-[[body]]
-name = "unfelt"
-shape = "box"
-size_m = [0.04, 0.04, 0.04]
-centre_m = [0.11, 0.1, 0.08]
-force = false
-torque = false
-[outputs]
-force_methods = true
-)");
+    const std::string scene = folder.write("two.toml", ball_and_box("force = false\ntorque = false\n"));
     const Ended ended = eddy({"simulate", scene, "--steps", "2", "--out", out});
     ASSERT_EQ(ended.status, 0) << ended.err;
     const nlohmann::json bodies = nlohmann::json::parse(read_all(out + "/summary.json")).at("bodies");
     EXPECT_TRUE(bodies.at(0).contains("force_methods"));
     EXPECT_FALSE(bodies.at(1).contains("force_methods"));
-    EXPECT_THAT(ended.out, testing::ContainsRegex("on felt at the end.*\nmeasured three ways"));
-    EXPECT_THAT(ended.out,
-                testing::Not(testing::ContainsRegex("on unfelt at the end.*\nmeasured three ways")));
+    EXPECT_THAT(ended.out, testing::ContainsRegex("on ball at the end.*\nmeasured three ways"));
+    EXPECT_THAT(ended.out, testing::Not(testing::ContainsRegex("on box at the end.*\nmeasured three ways")));
 }
 
 TEST(Simulate, ReplacesAnEarlierResult) {
