@@ -31,7 +31,8 @@ TEST(FluidSetup, OfEachPresetIsWhatItsNameSays) {
 }
 
 TEST(FluidSetup, MeasuresTheForceInMoreWaysWhereTheSceneAsksForIt) {
-    const std::string ball = "[[body]]\nradius_m = 0.02\n[outputs]\nforce_methods = ";
+    const std::string ball =
+        "[[body]]\nradius_m = 0.02\ncentre_m = [0.08, 0.08, 0.08]\n[outputs]\nforce_methods = ";
     EXPECT_TRUE(setup_of(ball + "true\n").force_methods);
     EXPECT_FALSE(setup_of(ball + "false\n").force_methods);
 }
