@@ -38,15 +38,19 @@ void Grip::update(const BodyUniforms& bodies, const std::vector<Box>& boxes, con
         for (const Box& box : here) boxes_[l].push_back(box.faces());
         std::vector<Box> touched = boxes_[l];
         for (const Box& box : before) touched.push_back(box.faces());
-        const Region region = drawn_ ? Region(touched) : Region::everything();
+        // Grips look one face further.
+        std::vector<Box> looked_at = touched;
+        for (Box& box : looked_at) box = box.grow(1);
         draw_distances_[l].draw(inputs, bodies.uniforms(),
-                                {&level.distances.texture(), &level.shares.texture()}, region);
+                                {&level.distances.texture(), &level.shares.texture()},
+                                drawn_ ? Region(looked_at) : Region::everything());
         std::vector<Input> of_grip = bodies.inputs();
         of_grip.insert(of_grip.end(),
                        {{"distances", &level.distances.texture()}, {"shares", &level.shares.texture()}});
         std::vector<const Texture*> outputs{&level.grips.texture()};
         if (l == 0) outputs.push_back(&surface_.texture());
-        draw_grips_[l].draw(of_grip, bodies.uniforms(), outputs, region);
+        draw_grips_[l].draw(of_grip, bodies.uniforms(), outputs,
+                            drawn_ ? Region(touched) : Region::everything());
         const Box tank{glm::ivec3(0), grids_[l]};
         for (Box& box : here) box = box.coarsen().grow(1).intersect(tank);
         for (Box& box : before) box = box.coarsen().grow(1).intersect(tank);
