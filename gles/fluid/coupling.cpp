@@ -130,6 +130,39 @@ void Coupling::reset() {
     boxes_before_.clear();
 }
 
+bool Coupling::solves_for_the_same_as(const Coupling& other) const {
+    const auto same = [](const Triple& a, const Triple& b) {
+        return a.body == b.body && a.turns == b.turns && a.potentials.size() == b.potentials.size();
+    };
+    return std::equal(triples_.begin(), triples_.end(), other.triples_.begin(), other.triples_.end(), same);
+}
+
+bool Coupling::copy(const Coupling& from, Resample& resample) {
+    if (!solves_for_the_same_as(from)) return false;
+    for (std::size_t t = 0; t < triples_.size(); ++t) {
+        Triple& to = triples_[t];
+        const Triple& of = from.triples_[t];
+        for (std::size_t axis = 0; axis < to.potentials.size(); ++axis)
+            to.potentials[axis] = resample.in_fours(of.potentials[axis], 1.0f);
+        to.acceleration = of.acceleration;
+        to.trust = of.trust;
+    }
+    return true;
+}
+
+void Coupling::start(const Coupling* from, const std::vector<BodyState>& states, const FaceFractions& a,
+                     const std::vector<Box>& boxes) {
+    reset();
+    if (from && solves_for_the_same_as(*from))
+        for (std::size_t t = 0; t < triples_.size(); ++t) {
+            const double gain = triples_[t].turns ? setup_.cell_m / from->setup_.cell_m : 1.0;
+            triples_[t].acceleration = gain * from->triples_[t].acceleration;
+            triples_[t].trust = from->triples_[t].trust;
+        }
+    draw_potentials(states, a, boxes, {});
+    uniforms_.set(states);
+}
+
 std::vector<BodyState> Coupling::predict(const std::vector<BodyState>& given,
                                          const std::vector<BodyState>& before, double dt_s) {
     before_ = before.empty() ? given : before;
@@ -160,12 +193,13 @@ std::vector<BodyState> Coupling::predict(const std::vector<BodyState>& given,
     return states;
 }
 
-void Coupling::draw_potentials(const std::vector<BodyState>& states, const Step& step) {
-    std::vector<Box> touched = step.boxes;
+void Coupling::draw_potentials(const std::vector<BodyState>& states, const FaceFractions& a,
+                               const std::vector<Box>& boxes, const std::vector<Displacement>& since) {
+    std::vector<Box> touched = boxes;
     touched.insert(touched.end(), boxes_before_.begin(), boxes_before_.end());
-    boxes_before_ = step.boxes;
+    boxes_before_ = boxes;
     const Pressure::Work work{
-        .cycles = kCycles + (step.since.empty() ? kColdCycles : 0), .cut = step.boxes, .rough = step.boxes};
+        .cycles = kCycles + (since.empty() ? kColdCycles : 0), .cut = boxes, .rough = boxes};
     for (Triple& triple : triples_) {
         const std::size_t body = bodies_[triple.body].index;
         for (std::size_t axis = 0; axis < triple.potentials.size(); ++axis) {
@@ -174,11 +208,11 @@ void Coupling::draw_potentials(const std::vector<BodyState>& states, const Step&
             glm::dvec3& velocity = triple.turns ? unit[body].spin_rad_s : unit[body].velocity_m_s;
             velocity[static_cast<glm::length_t>(axis)] = triple.turns ? 1.0 / setup_.cell_m : 1.0;
             uniforms_.set(unit);
-            std::vector<Input> inputs = step.a.inputs();
+            std::vector<Input> inputs = a.inputs();
             inputs.insert(inputs.end(), uniforms_.inputs().begin(), uniforms_.inputs().end());
             flux_.draw(inputs, uniforms_.uniforms(), {&b_.texture()}, Region::packed(touched));
             Field<Cells4>& phi = triple.potentials[axis];
-            if (!step.since.empty()) phi = pressure_.follow(std::move(phi), {step.since[body]});
+            if (!since.empty()) phi = pressure_.follow(std::move(phi), {since[body]});
             phi = pressure_.solve(std::move(phi), b_, work);
         }
     }
@@ -243,7 +277,7 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
 }
 
 void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
-    draw_potentials(states, step);
+    draw_potentials(states, step.a, step.boxes, step.since);
     const LinearSystem system = newton(states, step, add_up(states, step));
     const std::vector<double> change = contacts_.solve(system, states, unknowns_, step.dt_s);
     for (std::size_t t = 0; t < triples_.size(); ++t) {

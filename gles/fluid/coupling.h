@@ -5,6 +5,7 @@
 #include "gles/body/rigid_body.h"
 #include "gles/fluid/contacts.h"
 #include "gles/fluid/pressure.h"
+#include "gles/fluid/resample.h"
 #include "gles/fluid/traction.h"
 #include "gles/linear_system.h"
 #include "gles/readback.h"
@@ -53,6 +54,11 @@ class Coupling {
     void solve(std::vector<BodyState>& states, const Step& step);
     /// phi for those velocities from one for the guess.
     Field<Cells4> add_to(Field<Cells4> phi);
+    /// Goes on from another's of the same grid, bit for bit. Whether it could: whether both solve for the same velocities.
+    bool copy(const Coupling& from, Resample& resample);
+    /// Goes on from another grid's, or none (null), with the bodies at these states.
+    void start(const Coupling* from, const std::vector<BodyState>& states, const FaceFractions& a,
+               const std::vector<Box>& boxes);
     /// Forgets everything about the last step.
     void reset();
 
@@ -80,8 +86,10 @@ class Coupling {
     struct Sums;
 
     Unknown unknown(std::size_t k) const;
-    /// phi_k, where the bodies are now.
-    void draw_potentials(const std::vector<BodyState>& states, const Step& step);
+    /// phi_k, where the bodies are now; `since`: see Step.
+    void draw_potentials(const std::vector<BodyState>& states, const FaceFractions& a,
+                         const std::vector<Box>& boxes, const std::vector<Displacement>& since);
+    bool solves_for_the_same_as(const Coupling& other) const;
     /// J phi of all pressures.
     Sums add_up(const std::vector<BodyState>& states, const Step& step);
     LinearSystem newton(const std::vector<BodyState>& states, const Step& step, const Sums& sums);

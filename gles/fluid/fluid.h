@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gles/field.h"
+#include "gles/fluid/fluid_state.h"
 #include "gles/fluid/setup.h"
 
 namespace eddy::gles {
@@ -41,6 +42,12 @@ class Fluid {
     const std::vector<BodyState>& bodies() const { return bodies_; }
     /// Back to the start, exactly.
     virtual void reset() = 0;
+    /// Goes on from where `from` is: its time, number of steps, bodies, flow, smoke and heat, brought over on the GPU. The two
+    /// must have the same tank and bodies, and both or neither an imposed flow (else std::logic_error); cells, method and all
+    /// other settings may differ. From a fluid with the same cells and kind of grid everything is copied bit for bit. From
+    /// any other it is interpolated, and freed of divergence there and then, so that the force of the next step is the
+    /// force of that step. What `from` does not have starts as after reset(); results not yet taken are dropped.
+    void take_over(const Fluid& from);
 
     /// Smoke density at cell centres; null if the scene has none.
     virtual const Field<Cells>* smoke() const = 0;
@@ -60,6 +67,10 @@ class Fluid {
 
   protected:
     explicit Fluid(FluidSetup setup) : setup_(std::move(setup)) {}
+    /// What it is now, and how it becomes what another is.
+    virtual FluidState state() const = 0;
+    virtual void resume(const FluidState& from) = 0;
+
     const FluidSetup setup_;
     std::vector<BodyState> bodies_;  ///< at the end of the last step; none before the first
 };

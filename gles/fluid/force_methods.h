@@ -41,6 +41,11 @@ class ForceMethodsPass {
                 const std::vector<Box>& boxes, double time_s, double dt_s);
     /// Of the last step, one for each body.
     const std::vector<ForceMethods>& forces() const { return forces_; }
+    /// Goes on from the same grid's.
+    void take_over(const ForceMethodsPass& from) {
+        shares_before_ = from.shares_before_;
+        forces_ = from.forces_;
+    }
     /// Forgets the shares of the last step.
     void reset() {
         shares_before_.clear();

@@ -65,6 +65,25 @@ void ImposedFluid::step(double dt_s, const std::vector<BodyState>&, bool wants_d
     }
 }
 
+FluidState ImposedFluid::state() const {
+    return {.setup = setup_,
+            .bodies = bodies_,
+            .steps = step_,
+            .time_s = time_s_,
+            .smoke = smoke(),
+            .temperature = temperature()};
+}
+
+void ImposedFluid::resume(const FluidState& from) {
+    Gpu::Stage stage(gpu_, "take over");
+    if (!resample_) resample_.emplace(gpu_, setup_.cells);
+    if (smoke_) smoke_->take_over(from.smoke, *resample_);
+    if (temperature_) temperature_->take_over(from.temperature, *resample_);
+    results_.forget();
+    step_ = from.steps;
+    time_s_ = from.time_s;
+}
+
 Field<Faces> ImposedFluid::flow_at(double time_s) const {
     Field<Faces> u(gpu_, setup_.cells, Format::RGBA32F);
     flow_.draw({}, {{"time", static_cast<float>(time_s)}}, {&u.texture()});

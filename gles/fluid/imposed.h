@@ -27,6 +27,8 @@ class ImposedFluid final : public Fluid {
     void set_velocity(const std::vector<glm::vec3>& u) override;
 
   private:
+    FluidState state() const override;
+    void resume(const FluidState& from) override;
     Field<Faces> flow_at(double time_s) const;
     void diagnose();
 
@@ -38,6 +40,7 @@ class ImposedFluid final : public Fluid {
     Field<Faces> u_;     ///< in the middle of the step [m/s]; drawn once if the flow is steady
     std::optional<Scalar> smoke_, temperature_;
     std::optional<Pass> divergence_;
+    std::optional<Resample> resample_;  ///< to take over from another
     Diagnosis diagnosis_;
     Results results_;
 };

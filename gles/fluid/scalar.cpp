@@ -45,6 +45,13 @@ void Scalar::reset() {
     field_.texture().upload(pack_scalars(values, field_.layout()).data());
 }
 
+void Scalar::take_over(const Field<Cells>* from, Resample& resample) {
+    if (from)
+        field_ = resample.in_cells(*from);
+    else
+        reset();
+}
+
 void Scalar::step(const Field<Faces>& u, double time_s, double dt_s, const Uniform& wall_time) {
     const std::string name = setup_.name;
     {

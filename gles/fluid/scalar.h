@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "gles/fluid/diffusion.h"
+#include "gles/fluid/resample.h"
 #include "gles/fluid/transport.h"
 
 namespace eddy::gles {
@@ -20,6 +21,8 @@ class Scalar {
 
     /// Back to the start.
     void reset();
+    /// That of another fluid; null: back to the start.
+    void take_over(const Field<Cells>* from, Resample& resample);
     /// Moves on by dt_s with velocity u. `time_s`: when the step begins.
     void step(const Field<Faces>& u, double time_s, double dt_s, const Uniform& wall_time);
     const Field<Cells>& field() const { return field_; }

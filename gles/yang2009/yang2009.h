@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "gles/fluid/fluid.h"
+#include "gles/fluid/resample.h"
 #include "gles/fluid/results.h"
 #include "gles/fluid/transport.h"
 #include "gles/reduce.h"
@@ -37,6 +38,10 @@ class Yang2009Fluid final : public Fluid {
     void set_velocity(const std::vector<glm::vec3>& u) override;
 
   private:
+    FluidState state() const override;
+    void resume(const FluidState& from) override;
+    /// Projects u_ as it is, with the bodies where they are: no time passes, and nobody feels anything.
+    void free_of_divergence();
     const Voxels* voxels() const { return voxels_ ? &*voxels_ : nullptr; }
     std::vector<Input> with_obstacles(std::vector<Input> inputs) const;
     Field<Cells> advect_velocity();
@@ -68,6 +73,7 @@ class Yang2009Fluid final : public Fluid {
     Jacobi pressure_;
     Pass project_;
     std::optional<VoxelForce> force_;
+    std::optional<Resample> resample_;  ///< to take over from another
     std::optional<Pass> diagnose_;
     std::optional<Reduce> reduce_diagnosis_;
     Results results_;  // loads and diagnosis

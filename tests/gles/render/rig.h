@@ -38,6 +38,8 @@ class StillSmoke final : public Fluid {
     void set_velocity(const std::vector<glm::vec3>&) override {}
 
   private:
+    FluidState state() const override { return {.setup = setup_, .bodies = bodies_}; }
+    void resume(const FluidState&) override {}
     std::optional<Field<Cells>> smoke_;
 };
 
