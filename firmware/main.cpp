@@ -213,7 +213,7 @@ struct CommandLine {
                           ->take_all()
                           ->expected(1, 100000);
         auto* out = verb->add_option("--out", accuracy.out,
-                                     "folder for accuracy.csv, accuracy.json, report.txt, plots");
+                                     "folder for accuracy.csv, accuracy.json, report.md, plots");
         sweep->needs(out);
         merge->needs(out);
         for (CLI::Option* other : {validate, list, verb->get_option("--set"), verb->get_option("--json"),

@@ -26,8 +26,8 @@ void write(const sweep::Table& table, const fs::path& folder) {
 void conclude(const sweep::Table& table, const fs::path& folder) {
     write(table, folder);
     const std::string report = sweep::report_of(table);
-    replace_text_file(folder / "report.txt", report);
-    fmt::print("{}\nwritten to {}: accuracy.csv, accuracy.json, report.txt", report, folder.string());
+    replace_text_file(folder / "report.md", report);
+    fmt::print("{}\nwritten to {}: accuracy.csv, accuracy.json, report.md", report, folder.string());
     for (const fs::path& picture : sweep::plot(table, folder))
         fmt::print(", {}", picture.filename().string());
     fmt::print("\n");

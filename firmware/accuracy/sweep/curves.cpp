@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "firmware/accuracy/sweep/problem.h"
 #include "firmware/gnuplot.h"
 
 namespace eddy::accuracy::sweep {
@@ -132,7 +133,7 @@ const char* const kTimeAxis =
 
 std::string real_time_lines() {
     std::string text;
-    for (const int rate : {20, 50, 75})
+    for (const double rate : kRatesHz)
         text += fmt::format(
             "set arrow from {0:.4g}, graph 0 to {0:.4g}, graph 1 nohead dt 3 lw 1.5 lc rgb '#2a8a3a'\n"
             "set label '{1} Hz' at {0:.4g}, graph 0.62 left rotate by 90 offset 0.7,0 tc rgb '#2a8a3a'\n",

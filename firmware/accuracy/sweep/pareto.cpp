@@ -1,6 +1,7 @@
 #include "firmware/accuracy/sweep/pareto.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace eddy::accuracy::sweep {
 
@@ -18,7 +19,7 @@ Chosen front(const Chosen& some) {
     });
     Chosen best;
     for (const Measurement* m : sorted)
-        if (m->error == m->error && (best.empty() || m->error < best.back()->error)) best.push_back(m);
+        if (!std::isnan(m->error) && (best.empty() || m->error < best.back()->error)) best.push_back(m);
     return best;
 }
 

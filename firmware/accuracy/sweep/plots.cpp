@@ -49,8 +49,7 @@ std::string iterations_plot(const Table& table) {
     const std::set<int> grids = grids_of(some);
     std::string panels;
     const std::pair<const char*, std::vector<SolverPreset>> kPanels[] = {
-        {"multigrid V-cycles a step (three more in this first one)",
-         {SolverPreset::Fast, SolverPreset::Precise}},
+        {"multigrid V-cycles a step", {SolverPreset::Fast, SolverPreset::Precise}},
         {"Jacobi sweeps a step", {SolverPreset::Yang2009}}};
     for (const auto& [label, methods] : kPanels) {
         Plot plot;
@@ -80,8 +79,8 @@ std::string iterations_plot(const Table& table) {
     // One scale for both panels.
     const std::string errors = range("y", some, percent_of);
     return start_of("iterations", 1300, 700) + kPercentAxis + errors +
-           "set ylabel 'error of the force, first step, worst of 4 places'\n"
-           "set multiplot layout 1,2 title 'B2: a ball sets off. Error against iterations of the "
+           "set ylabel 'error of the force, worst of 4 places'\n"
+           "set multiplot layout 1,2 title 'B2: a ball speeds up. Error against iterations of the "
            "pressure'\n" +
            panels;
 }

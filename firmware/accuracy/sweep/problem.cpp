@@ -41,24 +41,32 @@ glm::dvec3 force_on_first_body(const Run& run, const gles::StepResult& result, F
     throw std::logic_error("a way without a force");
 }
 
-/// A ball at rest in water at rest moves off at U within one step: the water it takes along is pushed by
-/// F dt = -C_m rho V U. No step before it has prepared the pressure. The worst of places along a diagonal through one
-/// cell; C_m hardly changes by that (image dipoles: 1e-4).
+/// A ball at rest in water at rest speeds up by U in each step: the water it takes along is pushed by F dt = -C_m rho V U.
+/// The first step of the movement is not judged, as yang2009 sees half of any change in the step after it; the worst of the
+/// next three is, as what the iterations leave of one step comes out in the next and may make up for the error of the
+/// grid there. A step at rest comes before all that: the first step of a fluid takes more cycles than those that are timed.
+/// The worst of places along a diagonal through one cell; C_m hardly changes by that (image dipoles: 1e-4).
 double set_off(Laboratory& lab, const Setting& setting) {
     constexpr int kPlaces = 4;
+    const glm::dvec3 gained_m_s(0.001, 0.0, 0.0);  // a step
     double worst = 0.0;
     for (int i = 0; i < kPlaces; ++i) {
         Scene scene = lab.scene();
         Scene::Body& ball = scene.bodies[0];
         ball.centre_m += scene.tank.cell_m() * i / kPlaces * glm::dvec3(1.0, 0.7, 0.4);
-        ball.velocity_m_s = {0.001, 0.0, 0.0};
         ball.acceleration_m_s2 = glm::dvec3(0.0);
         Run run = lab.start(scene);
-        const glm::dvec3 force = force_on_first_body(run, run.step(), setting.force);
+        run.step();
+        std::vector<gles::BodyState> bodies = run.fluid().bodies();
         const double volume = gles::mass_properties(run.setup().bodies[0].shape).volume_m3;
-        const glm::dvec3 exact = -references::kAddedMassInBox * scene.fluid.density_kg_m3 * volume /
-                                 run.dt_s() * ball.velocity_m_s;
-        worst = worse(worst, std::abs(glm::dot(force, exact) / glm::dot(exact, exact) - 1.0));
+        const glm::dvec3 exact =
+            -references::kAddedMassInBox * scene.fluid.density_kg_m3 * volume / run.dt_s() * gained_m_s;
+        for (int step = 1; step <= 4; ++step) {
+            bodies[0].velocity_m_s = static_cast<double>(step) * gained_m_s;
+            bodies[0].centre_m += run.dt_s() * bodies[0].velocity_m_s;
+            const glm::dvec3 force = force_on_first_body(run, run.step(bodies), setting.force);
+            if (step > 1) worst = worse(worst, glm::length(force - exact) / glm::length(exact));
+        }
     }
     return worst;
 }
@@ -68,7 +76,11 @@ double set_off(Laboratory& lab, const Setting& setting) {
 const std::vector<Problem>& all_problems() {
     static const std::vector<Problem> problems{
         {.name = "B2",
-         .title = "a ball at rest, radius L/10, sets off in water: first step, worst of 4 places in a cell",
+         .plain = "a sudden start",
+         .title = "A ball at rest, radius L/10, speeds up in water: force in the second to fourth step of "
+                  "that, worst of 4 "
+                  "places in a cell.",
+         .picture = "work_B2",
          .error = "force",
          .of = shipped("B2-box"),
          .quick = {24, 32, 48, 64},
@@ -78,7 +90,9 @@ const std::vector<Problem>& all_problems() {
          .hand = kForceJnd,
          .measure = set_off},
         {.name = "B3",
-         .title = "a ball, radius L/5, is drawn through glycerine: steady drag, worse of 2 places in a cell",
+         .plain = "a steady pull through glycerine",
+         .title = "A ball, radius L/5, is drawn through glycerine: steady drag, worse of 2 places in a cell.",
+         .picture = "work_B3",
          .error = "force",
          .of = shipped("B3"),
          .quick = {20, 32, 48},
@@ -95,7 +109,9 @@ const std::vector<Problem>& all_problems() {
                  return worst_of(shipped("B3"), lab, {0, 1});
              }},
         {.name = "B8.7",
-         .title = "a ball glides through water: trembling of its drag coefficient over the cells",
+         .plain = "does the force tremble",
+         .title = "A ball glides through water: trembling of its drag coefficient over the cells.",
+         .picture = "ripple",
          .error = "drag coefficient, rms",
          .of = shipped("B8.7-precise"),
          .quick = {48},
@@ -103,7 +119,9 @@ const std::vector<Problem>& all_problems() {
          .measure = [](Laboratory& lab,
                        const Setting&) { return worst_of(shipped("B8.7-precise"), lab, {0}); }},
         {.name = "A1",
-         .title = "vortices of Taylor and Green at Re 10 die away too fast: numerical over true viscosity",
+         .plain = "how long eddies live",
+         .title = "Vortices of Taylor and Green at Re 10 die away too fast: numerical over true viscosity.",
+         .picture = "viscosity",
          .error = "viscosity",
          .of = shipped("A1-courant"),
          .quick = {16, 32, 64},

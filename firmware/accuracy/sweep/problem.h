@@ -16,9 +16,11 @@ struct Threshold {
 /// A case with a known answer, boiled down to one error that can be held against time.
 struct Problem {
     std::string name = {};
-    std::string title = {};  ///< one line
-    std::string error = {};  ///< what its error is an error of, for axes
-    Case of = {};            ///< scene, and how its time step follows the grid
+    std::string plain = {};    ///< "a sudden start", for who does not know the case
+    std::string title = {};    ///< one line
+    std::string picture = {};  ///< name of its plot
+    std::string error = {};    ///< what its error is an error of, for axes
+    Case of = {};              ///< scene, and how its time step follows the grid
     std::vector<int> quick = {}, full = {};
     std::vector<Threshold> thresholds = {};  ///< of the headline table; none: not in it
     double hand = 0.0;                       ///< the greatest error that a hand cannot tell; 0: not known
@@ -31,6 +33,9 @@ const std::vector<Problem>& all_problems();
 
 /// Throws InputError that lists the names.
 const Problem& problem_named(const std::string& name);
+
+/// Rates of the fluid that an exhibit may want: still usable, the default, that of a good screen.
+inline constexpr double kRatesHz[] = {20.0, 50.0, 75.0};
 
 /// Two forces that differ by this share can just be told apart (Jones 1989, Perception 18).
 constexpr double kForceJnd = 0.07;
