@@ -11,3 +11,15 @@ function(embed target symbol)
     target_sources(${target} PRIVATE ${out})
     set_source_files_properties(${out} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endfunction()
+
+# embed_bytes(target symbol path): the same for one file of bytes, wherever it lies, declared as
+#     extern const std::span<const unsigned char> symbol;
+function(embed_bytes target symbol path)
+    set(out ${CMAKE_CURRENT_BINARY_DIR}/${symbol}.cpp)
+    add_custom_command(OUTPUT ${out}
+        COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DSYMBOL=${symbol} -DFILE=${path}
+                -P ${PROJECT_SOURCE_DIR}/cmake/embed_bytes.cmake
+        DEPENDS ${path} ${PROJECT_SOURCE_DIR}/cmake/embed_bytes.cmake VERBATIM)
+    target_sources(${target} PRIVATE ${out})
+    set_source_files_properties(${out} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+endfunction()

@@ -28,6 +28,12 @@ static_library(usb_static libusb-1.0 usb-1.0)
 target_link_libraries(usb_static INTERFACE udev Threads::Threads)
 static_library(gpiod_static libgpiod gpiod)
 
+# The typeface of all words on the screen, and what turns its outlines into pixels.
+find_path(STB_INCLUDE stb/stb_truetype.h REQUIRED)
+add_library(stb_headers INTERFACE)
+target_include_directories(stb_headers SYSTEM INTERFACE ${STB_INCLUDE})
+find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu REQUIRED NO_DEFAULT_PATH)
+
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)

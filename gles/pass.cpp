@@ -89,7 +89,7 @@ void Pass::require_all_given(const std::vector<Input>& inputs, const std::vector
 }
 
 void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& uniforms,
-                const std::vector<const Texture*>& outputs, const Region& region) {
+                const std::vector<const Texture*>& outputs, const Region& region, Onto onto) {
     glBindFramebuffer(GL_FRAMEBUFFER, gpu_->framebuffer(outputs));
     const glm::ivec2 size = outputs[0]->size();
     glViewport(0, 0, size.x, size.y);
@@ -109,6 +109,10 @@ void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& un
         checked_ = true;
     }
 
+    if (onto == Onto::Over) {
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    }
     int draws = 0;
     std::int64_t texels = 0;
     if (region.is_everything()) {
@@ -128,6 +132,7 @@ void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& un
         ++draws;
         texels += std::int64_t{extent.x} * extent.y * extent.z;
     }
+    if (onto == Onto::Over) glDisable(GL_BLEND);
     if (gpu_->recording()) {
         PassRecord record;
         record.pass = name_;

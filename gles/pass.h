@@ -51,6 +51,12 @@ struct Variant {
         declarations{};  ///< GLSL put in front of the shader, for what only the scene knows (its shapes)
 };
 
+/// What becomes of what the target held.
+enum class Onto {
+    Replace,  ///< it is gone
+    Over      ///< it shows through by 1 - alpha of what is drawn, whose colour holds its alpha already
+};
+
 /// One fragment shader drawn over a target. The shader's header says what it reads and writes, in which
 /// units. Locations are looked up once at link. Start-up fails, with the name, when the shader does not
 /// compile, or at the first draw when a uniform it uses is not given.
@@ -61,7 +67,8 @@ class Pass {
          const Variant& variant = {});
 
     void draw(const std::vector<Input>& inputs, const std::vector<Uniform>& uniforms,
-              const std::vector<const Texture*>& outputs, const Region& region = Region::everything());
+              const std::vector<const Texture*>& outputs, const Region& region = Region::everything(),
+              Onto onto = Onto::Replace);
 
     const std::string& name() const { return name_; }
 

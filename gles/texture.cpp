@@ -73,6 +73,12 @@ void Texture::upload(const float* texels) {
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.x, size_.y, row(format_).external, GL_FLOAT, texels);
 }
 
+void Texture::upload(const std::uint8_t* texels) {
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.x, size_.y, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+}
+
 std::vector<glm::vec4> Texture::download() const {
     GLuint framebuffer = 0;
     glGenFramebuffers(1, &framebuffer);

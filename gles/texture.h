@@ -29,6 +29,8 @@ class Texture {
 
     /// Replaces the content: size.x * size.y texels, row by row, as floats of the format's channel count.
     void upload(const float* texels);
+    /// The same for RGBA8: four bytes a texel.
+    void upload(const std::uint8_t* texels);
     /// Waits for the GPU. RGBA floats for float formats, whatever the channel count (missing channels are 0,
     /// alpha 1).
     std::vector<glm::vec4> download() const;
