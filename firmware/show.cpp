@@ -90,6 +90,7 @@ void Show::reset() {
     states_ = motions_.at(0.0, scene_.solver.dt_s);
     computed_for_.clear();
     hand_known_ = false;
+    ripple_.reset();
 }
 
 void Show::publish(bool wait) {
@@ -106,7 +107,9 @@ void Show::publish(bool wait) {
         const gles::Load& load = result->loads[*held];
         exchange_.fluid.publish(
             {load.force_n, load.torque_nm, ++sequence_, computed_for, Seconds(figures_.fluid_period_s)});
-        const double felt = glm::length(load.force_n) * scene_.haptics.gain;
+        const glm::dvec3 felt_force = load.force_n * scene_.haptics.gain;
+        ripple_.add(computed_for, felt_force);
+        const double felt = glm::length(felt_force);
         figures_.least_force_n = sequence_ == 1 ? felt : std::min(figures_.least_force_n, felt);
         figures_.most_force_n = std::max(figures_.most_force_n, felt);
     }

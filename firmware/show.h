@@ -4,6 +4,7 @@
 
 #include "config/scene.h"
 #include "firmware/body_schedule.h"
+#include "firmware/force_ripple.h"
 #include "firmware/haptic/exchange.h"
 #include "gles/fluid/fluid.h"
 
@@ -38,6 +39,8 @@ class Show {
     const gles::Fluid& fluid() const { return *fluid_; }
     const std::vector<gles::BodyState>& bodies() const { return states_; }
     const ShowFigures& figures() const { return figures_; }
+    /// How the force on the hand trembles, after gain [N]; worked out when asked.
+    std::optional<ForceRipple::Figures> ripple() const { return ripple_.figures(); }
 
   private:
     Scene scene_;
@@ -51,6 +54,7 @@ class Show {
     std::uint64_t sequence_ = 0;            // of the answers given to the haptic loop
     std::map<long, Instant> computed_for_;  // step under way -> time of the pose it was given
     ShowFigures figures_;
+    ForceRipple ripple_;
 };
 
 /// What the haptic loop is told for this scene: where the hand's workspace lies, how far the body may go, the
