@@ -16,6 +16,7 @@ void describe(Visitor& v, Exhibit& e) {
     v.value("scene", e.scene, "a shipped scene by name, or the path of a scene file");
     v.value("display", e.display, "where the picture goes");
     v.value("haptics", e.haptics, "which hand moves the held body");
+    v.value("overlay", e.overlay, "what is written over the picture");
     v.value("state_dir", e.state_dir, "what outlives a restart: calibration, tuning, flight recordings");
     v.value("run_dir", e.run_dir, "what lives as long as the program: status");
     v.value("max_force_n", e.max_force_n, "no scene makes the hand feel more", between(0, 8));

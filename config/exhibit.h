@@ -8,6 +8,7 @@ namespace eddy {
 
 enum class DisplayChoice { Auto, Kms, Headless };
 enum class HapticsChoice { Auto, Falcon, Emulated, None };
+enum class OverlayChoice { None, Cost };
 
 inline constexpr Word<DisplayChoice> kDisplayChoices[] = {
     {DisplayChoice::Auto, "auto", "the screen if there is one"},
@@ -20,6 +21,11 @@ inline constexpr Word<HapticsChoice> kHapticsChoices[] = {
     {HapticsChoice::Emulated, "emulated", "a simulated hand"},
     {HapticsChoice::None, "none", "no hand"},
 };
+inline constexpr Word<OverlayChoice> kOverlayChoices[] = {
+    {OverlayChoice::None, "none", "the picture alone"},
+    {OverlayChoice::Cost, "cost",
+     "what accuracy costs: steps a second, ms a stage, error and ripple of the force"},
+};
 
 constexpr std::span<const Word<DisplayChoice>> words_of(DisplayChoice) {
     return kDisplayChoices;
@@ -27,12 +33,16 @@ constexpr std::span<const Word<DisplayChoice>> words_of(DisplayChoice) {
 constexpr std::span<const Word<HapticsChoice>> words_of(HapticsChoice) {
     return kHapticsChoices;
 }
+constexpr std::span<const Word<OverlayChoice>> words_of(OverlayChoice) {
+    return kOverlayChoices;
+}
 
 /// What an exhibit machine is set to. exhibit.cpp has each key's meaning and range, exhibit.toml its value.
 struct Exhibit {
     std::string scene = "jet";  ///< as load_scene() takes it
     DisplayChoice display = DisplayChoice::Auto;
     HapticsChoice haptics = HapticsChoice::Auto;
+    OverlayChoice overlay = OverlayChoice::None;
     std::filesystem::path state_dir = "/var/lib/eddy";
     std::filesystem::path run_dir = "/run/eddy";
     double max_force_n = 4.0;

@@ -104,6 +104,8 @@ struct CommandLine {
         choose(*verb->add_option("--display", run.display, "where the picture goes"),
                words_of(DisplayChoice{}));
         choose(*verb->add_option("--haptics", run.haptics, "what the hand holds"), words_of(HapticsChoice{}));
+        choose(*verb->add_option("--overlay", run.overlay, "what is written over the picture"),
+               words_of(OverlayChoice{}));
         verb->add_option("--motion", run.motion,
                          "recorded hand for the emulated Falcon: CSV t_s,x_m,y_m,z_m");
         verb->add_option("--motion-axes", run.motion_axes,

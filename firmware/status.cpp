@@ -6,6 +6,35 @@
 #include "firmware/text_file.h"
 
 namespace eddy {
+namespace {
+
+/// What is not known is null.
+nlohmann::ordered_json to_json(const CostFigures& c) {
+    nlohmann::ordered_json j{{"preset", c.preset},
+                             {"cells", {c.cells.x, c.cells.y, c.cells.z}},
+                             {"iterations", c.iterations},
+                             {"steps_per_s", c.steps_per_s},
+                             {"target_steps_per_s", c.target_steps_per_s},
+                             {"force_error_share", nullptr},
+                             {"force_ripple_n", nullptr},
+                             {"force_ripple_share", nullptr},
+                             {"divergence_before_1_s", c.divergence_before_1_s},
+                             {"divergence_after_1_s", c.divergence_after_1_s},
+                             {"step_ms", c.step_ms},
+                             {"stages_ms", nlohmann::ordered_json::object()},
+                             {"picture_ms", c.picture_ms},
+                             {"quality_down", c.quality_down},
+                             {"quality_up", c.quality_up}};
+    if (c.force_error) j["force_error_share"] = *c.force_error;
+    if (c.ripple) {
+        j["force_ripple_n"] = c.ripple->rms;
+        j["force_ripple_share"] = c.ripple->share;
+    }
+    for (const CostFigures::Stage& stage : c.stages) j["stages_ms"][stage.name] = stage.ms;
+    return j;
+}
+
+}  // namespace
 
 bool write_status(const std::filesystem::path& file, const Status& s) {
     nlohmann::ordered_json j;
@@ -19,6 +48,7 @@ bool write_status(const std::filesystem::path& file, const Status& s) {
                   {"divergence_before_1_s", s.show.divergence_before_1_s},
                   {"divergence_after_1_s", s.show.divergence_after_1_s},
                   {"most_force_n", s.show.most_force_n}};
+    j["cost"] = to_json(s.cost);
     const HapticCounters& c = s.loop.device_counters;
     j["haptics"] = {{"device", s.haptic_device},
                     {"state", to_string(s.loop.device)},

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <string>
 
+#include "firmware/cost_figures.h"
 #include "firmware/haptic/exchange.h"
 #include "firmware/show.h"
 
@@ -13,6 +14,7 @@ struct Status {
     double uptime_s = 0.0;
     ShowFigures show;
     LoopReport loop;
+    CostFigures cost;
 };
 
 /// Replaces the file in one step. A disk that is full or gone must not stop the show: returns false then.

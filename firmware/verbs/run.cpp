@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "config/scene.h"
+#include "firmware/cost_page.h"
 #include "firmware/destination.h"
 #include "firmware/graphics.h"
 #include "firmware/haptic/loop.h"
@@ -19,6 +20,7 @@
 #include "firmware/text_file.h"
 #include "firmware/verbs/verbs.h"
 #include "gles/render/renderer.h"
+#include "gles/render/text.h"
 #include "hal/haptic/emulated/make_emulated_falcon.h"
 #include "hal/haptic/emulated/person_motion.h"
 #include "hal/haptic/emulated/recorded_motion.h"
@@ -39,6 +41,8 @@ constexpr Instant kLatchRest = 3s;
 constexpr long kMeasureEvery = 20;
 /// Recording pictures may take this share of the time; the fluid has the rest.
 constexpr double kRenderShare = 0.4;
+/// How long what is written over the picture stays the same: as long as it takes to read a number.
+constexpr Instant kPageStays = 1s;
 
 std::atomic<bool> g_stop{false};
 
@@ -119,6 +123,8 @@ class Run {
         if (!options.record.empty()) {
             recorder_.emplace(options.record);
             renderer_.emplace(graphics_->gpu, show_.fluid().setup(), render_setup(scene));
+            if (options.overlay.value_or(exhibit.overlay) == OverlayChoice::Cost)
+                overlay_.emplace(graphics_->gpu, renderer_->picture());
         }
         HapticLoopSettings settings;
         settings.gate.max_force_n = std::min(scene.haptics.max_force_n, exhibit.max_force_n);
@@ -151,7 +157,8 @@ class Run {
                                 : Instant::max();
     }
     void fluid_update(Instant now, Seconds dt);
-    void record_frame();
+    void record_frame(Instant now);
+    CostFigures cost() const { return cost_figures(scene_, show_, stopwatch_, step_rate_); }
     void drain_trace();
     void release_latch(Instant now);
     void report(Instant now, bool force = false);
@@ -165,10 +172,14 @@ class Run {
     std::unique_ptr<Graphics> graphics_;
     Show show_;
     Stopwatch stopwatch_;
+    StepRate step_rate_;
     TickTrace trace_;
     std::vector<TickRecord> ticks_{4096};
     std::optional<HapticLoop> loop_;
     std::optional<gles::Renderer> renderer_;
+    std::optional<gles::Text> overlay_;
+    gles::Page page_;
+    Instant page_due_{0};
     std::optional<Recorder> recorder_;
     std::filesystem::path status_file_;
     HapticOrders orders_;
@@ -185,6 +196,7 @@ void Run::warm_up() {
     const RealClock clock;
     show_.warm_up();
     if (renderer_) renderer_->draw(show_.fluid(), show_.bodies());
+    if (overlay_) overlay_->draw(cost_page(cost(), renderer_->picture().size()));
     gles::finish();
     if (const Seconds took = clock.now(); took > kSlowWarmUp)
         fmt::print(stderr, "run: the driver took {:.1f} s to prepare its shaders\n", took.count());
@@ -194,12 +206,18 @@ void Run::fluid_update(Instant now, Seconds dt) {
     const bool measure = show_.figures().steps % kMeasureEvery == kMeasureEvery / 2;
     stopwatch_.set_on(measure);
     show_.update(now, dt, measure);
+    step_rate_.add_step();
     stopwatch_.set_on(false);
 }
 
-void Run::record_frame() {
+void Run::record_frame(Instant now) {
+    if (overlay_ && now >= page_due_) {
+        page_ = cost_page(cost(), renderer_->picture().size());
+        page_due_ = now + kPageStays;
+    }
     stopwatch_.set_on(true);
     renderer_->draw(show_.fluid(), show_.bodies());
+    if (overlay_) overlay_->draw(page_);
     stopwatch_.set_on(false);
     try {
         recorder_->add(*renderer_, scene_.render.width_px, scene_.render.height_px);
@@ -243,7 +261,7 @@ void Run::report(Instant now, bool force) {
     status_due_ = now + 1s;
     write_status(status_file_,
                  {scene_.title, graphics_->gpu.capabilities().renderer, graphics_->display->describe(),
-                  device_name_, Seconds(now).count(), show_.figures(), loop_report_});
+                  device_name_, Seconds(now).count(), show_.figures(), loop_report_, cost()});
 }
 
 /// Both loops on their own threads and the machine's clock, as a visitor meets them.
@@ -277,7 +295,7 @@ void Run::real() {
         last = now;
         show_.publish(false);
         if (recorder_ && now >= frame_due_) {
-            record_frame();
+            record_frame(now);
             const Instant took = clock.now() - now;
             frame_due_ = now + std::max(frame_period, Instant(static_cast<Instant::rep>(
                                                           static_cast<double>(took.count()) / kRenderShare)));
@@ -316,7 +334,7 @@ void Run::stepped() {
         show_.publish(show_.figures().steps > 0);
         fluid_update(fluid_due, Seconds(period));
         if (recorder_ && fluid_due >= frame_due_) {
-            record_frame();
+            record_frame(fluid_due);
             frame_due_ += frame_period;
         }
         fluid_due += period;

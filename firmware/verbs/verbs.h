@@ -63,6 +63,7 @@ struct RunOptions {
     std::vector<std::string> set;
     std::optional<DisplayChoice> display;
     std::optional<HapticsChoice> haptics;
+    std::optional<OverlayChoice> overlay;
     std::string motion;                  ///< CSV for the emulated hand; empty: a person-like motion
     std::string motion_axes = "x,z,-y";  ///< which way the recording's axes point
     std::uint64_t seed = 1;

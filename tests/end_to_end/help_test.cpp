@@ -12,8 +12,8 @@ struct Verb {
 
 const std::vector<Verb> kVerbs{
     {"run",
-     {"--scene", "--set", "--display", "--haptics", "--motion", "--motion-axes", "--seed", "--seconds",
-      "--record", "--fps", "--clock", "--run-dir"}},
+     {"--scene", "--set", "--display", "--haptics", "--overlay", "--motion", "--motion-axes", "--seed",
+      "--seconds", "--record", "--fps", "--clock", "--run-dir"}},
     {"simulate", {"SCENE", "--set", "--seconds", "--steps", "--out", "--plan"}},
     {"bench",
      {"SCENE", "--scene", "--set", "--grid", "--effects", "--csv", "--plot", "--paper", "--repeats",
@@ -46,7 +46,8 @@ TEST(Help, OfTheProgramNamesEachVerb) {
 
 TEST(Help, OfAChoiceListsItsWords) {
     const std::string help = eddy({"run", "--help"}).out;
-    for (const std::string words : {"auto|kms|headless", "auto|falcon|emulated|none", "real|stepped"})
+    for (const std::string words :
+         {"auto|kms|headless", "auto|falcon|emulated|none", "none|cost", "real|stepped"})
         EXPECT_NE(help.find(words), std::string::npos) << words << " in:\n" << help;
 }
 

@@ -68,6 +68,16 @@ TEST(SteppedRun, IsTheSameBitForBitEachTime) {
     EXPECT_EQ(read_path(folder / "a/force.csv").size(), 1000u);
 }
 
+TEST(SteppedRun, WithAPageOverItsPicturesMovesAsItDoesWithout) {
+    const ScratchFolder folder;
+    record(folder / "plain");
+    record(folder / "page", {"--overlay", "cost"});
+    record(folder / "none", {"--overlay", "none"});
+    EXPECT_EQ(read_all(folder / "page/force.csv"), read_all(folder / "plain/force.csv"));
+    EXPECT_NE(read_all(folder / "page/frame_0007.png"), read_all(folder / "plain/frame_0007.png"));
+    EXPECT_EQ(read_all(folder / "none/frame_0007.png"), read_all(folder / "plain/frame_0007.png"));
+}
+
 TEST(SteppedRun, WithAnotherSeedIsAnother) {
     const ScratchFolder folder;
     record(folder / "a", {"--fps", "1"});
@@ -127,6 +137,16 @@ TEST(Run, EndsByItselfAndSaysHowItWent) {
     const double uptime = status.at("uptime_s");
     EXPECT_GE(uptime, 1.0);
     EXPECT_GT(status.at("fluid").at("steps").get<int>(), 0);
+    const nlohmann::json& cost = status.at("cost");
+    EXPECT_EQ(cost.at("preset"), "fast");
+    EXPECT_EQ(cost.at("cells"), (std::vector<int>{16, 16, 16}));
+    EXPECT_GT(cost.at("steps_per_s").get<double>(), 0.0);
+    EXPECT_DOUBLE_EQ(cost.at("target_steps_per_s"), 50.0);
+    EXPECT_TRUE(cost.at("force_error_share").is_null());
+    double sum = 0.0;
+    for (const auto& [stage, ms] : cost.at("stages_ms").items()) sum += ms.get<double>();
+    EXPECT_GT(cost.at("stages_ms").at("pressure").get<double>(), 0.0);
+    EXPECT_NEAR(cost.at("step_ms"), sum, 1e-9 * sum);
     // However busy the machine: each millisecond's tick is run, or left out and counted; none is lost in between.
     const int ticks = status.at("haptics").at("ticks"), missed = status.at("haptics").at("missed");
     EXPECT_GT(ticks, 0);
