@@ -69,7 +69,8 @@ const Font::Bitmap& Font::bitmap(int glyph, double px, int quarter) {
     Bitmap& bitmap = bitmaps_[key];
     bitmap.low_px = low;
     bitmap.size_px = high - low;
-    bitmap.coverage.resize(static_cast<std::size_t>(bitmap.size_px.x * bitmap.size_px.y));
+    bitmap.coverage.resize(static_cast<std::size_t>(bitmap.size_px.x) *
+                           static_cast<std::size_t>(bitmap.size_px.y));
     bytes_ += bitmap.coverage.size();
     if (!bitmap.coverage.empty())
         stbtt_MakeGlyphBitmapSubpixel(&font, bitmap.coverage.data(), bitmap.size_px.x, bitmap.size_px.y,
