@@ -17,6 +17,12 @@ void describe(Visitor& v, Exhibit& e) {
     v.value("display", e.display, "where the picture goes");
     v.value("haptics", e.haptics, "which hand moves the held body");
     v.value("overlay", e.overlay, "what is written over the picture");
+    v.value("presets", e.presets,
+            "with more than one, the right and left buttons of the grip step through these solver presets, "
+            "beginning "
+            "with the first; the machine is not tuned then");
+    v.value("preset_s", e.preset_s, "they also change by themselves after so long; 0: never",
+            between(0, 86400));
     v.value("state_dir", e.state_dir, "what outlives a restart: calibration, tuning, flight recordings");
     v.value("run_dir", e.run_dir, "what lives as long as the program: status");
     v.value("max_force_n", e.max_force_n, "no scene makes the hand feel more", between(0, 8));

@@ -1,7 +1,9 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "config/scene_words.h"
 #include "config/value.h"
 
 namespace eddy {
@@ -43,6 +45,8 @@ struct Exhibit {
     DisplayChoice display = DisplayChoice::Auto;
     HapticsChoice haptics = HapticsChoice::Auto;
     OverlayChoice overlay = OverlayChoice::None;
+    std::vector<SolverPreset> presets{};
+    double preset_s = 0.0;
     std::filesystem::path state_dir = "/var/lib/eddy";
     std::filesystem::path run_dir = "/run/eddy";
     double max_force_n = 4.0;

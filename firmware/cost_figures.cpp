@@ -33,7 +33,7 @@ void StepRate::add_step() {
 CostFigures cost_figures(const Scene& scene, const Show& show, const Stopwatch& stopwatch,
                          const StepRate& rate) {
     CostFigures figures;
-    figures.preset = to_word(scene.solver.preset);
+    figures.preset = to_word(show.quality().preset);
     figures.cells = show.fluid().setup().cells;
     const gles::SolverSetup& solver = show.fluid().setup().solver;
     figures.iterations = show.fluid().setup().imposed             ? counted(0, "cycle")

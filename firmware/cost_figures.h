@@ -31,6 +31,7 @@ struct CostFigures {
     std::optional<ForceRipple::Figures>
         ripple{};                          ///< [N], of the force on the hand after gain; none: not known yet
     int quality_down = 0, quality_up = 0;  ///< steps taken since the start
+    std::string quality_note{};  ///< why the last was taken, or what else there is to say of the quality
 };
 
 /// Steps a second by the machine's clock, as they were lately.

@@ -54,6 +54,7 @@ struct CommandLine {
     RunOptions run;
     SimulateOptions simulate;
     BenchOptions bench;
+    TuneOptions tune;
     AccuracyOptions accuracy;
     std::string check_file, print_scene;
     std::vector<std::string> print_set;
@@ -73,6 +74,7 @@ struct CommandLine {
         add_simulate();
         add_bench();
         add_accuracy();
+        add_tune();
         auto* check =
             app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
         check->add_option("FILE", check_file, "the file to check")->required();
@@ -124,6 +126,21 @@ struct CommandLine {
                                  "stepped: virtual time, the same run bit for bit each time"),
                std::span<const Word<ClockChoice>>(kClockChoices));
         verb->add_option("--run-dir", run.run_dir, "where status.json goes");
+        verb->add_option(
+            "--state-dir", run.state_dir,
+            "where tuning.json is; if it is not there yet, it is made while nobody moves the hand");
+    }
+
+    void add_tune() {
+        auto* verb = app.add_subcommand(
+            "tune",
+            "Measure this machine: grids and iterations for the scene's preset and rate, by time and by\n"
+            "the error of the force. Keeps the result, with the evidence, for eddy run");
+        verb->option_defaults()->take_last();
+        verb->add_option("SCENE,--scene", tune.scene, "shipped scene or file [that of the exhibit]");
+        add_set(*verb, tune.set);
+        verb->add_option("--state-dir", tune.state_dir, "folder for tuning.json [that of the exhibit]");
+        verb->add_flag("--show", tune.show, "print what is kept there, and stop");
     }
 
     void add_simulate() {
@@ -255,6 +272,7 @@ struct CommandLine {
             return bench.paper.empty() ? eddy::bench(bench) : bench_paper(bench);
         }
         if (app.got_subcommand("accuracy")) return act_on_accuracy();
+        if (app.got_subcommand("tune")) return eddy::tune(tune);
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);
     }

@@ -1,6 +1,7 @@
 #include "firmware/show.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "firmware/fluid_setup.h"
 #include "gles/body/bounds.h"
@@ -50,13 +51,47 @@ Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange)
     : scene_(scene),
       exchange_(exchange),
       motions_(scene),
-      fluid_(gles::make_fluid(gpu, shown(scene))),
+      gpu_(gpu),
+      quality_(quality_of(scene)),
+      fluid_(&made(quality_)),
       states_(motions_.at(0.0, scene.solver.dt_s)) {}
 
-void Show::warm_up() {
-    fluid_->step(scene_.solver.dt_s, states_, true);
-    fluid_->wait_result();
-    fluid_->reset();
+gles::Fluid& Show::made(const Quality& quality) {
+    std::unique_ptr<gles::Fluid>& fluid = fluids_[quality];
+    if (!fluid) fluid = gles::make_fluid(gpu_, shown(with_quality(scene_, quality)));
+    return *fluid;
+}
+
+void Show::warm_up(const std::vector<Quality>& qualities) {
+    for (const Quality& quality : qualities) take_a_step(made(quality));
+    for (std::size_t i = 1; i < qualities.size(); ++i) {
+        made(qualities[i]).take_over(made(qualities[i - 1]));
+        made(qualities[i - 1]).take_over(made(qualities[i]));
+    }
+    for (const auto& [quality, fluid] : fluids_) fluid->reset();
+}
+
+void Show::make_ready(const Quality& quality) {
+    if (is_ready(quality)) return;
+    gles::Fluid& fluid = made(quality);
+    take_a_step(fluid);
+    fluid.take_over(*fluid_);
+}
+
+void Show::take_a_step(gles::Fluid& fluid) const {
+    fluid.step(scene_.solver.dt_s, motions_.at(0.0, scene_.solver.dt_s), true);
+    fluid.wait_result();
+}
+
+void Show::set_quality(const Quality& quality) {
+    if (quality == quality_) return;
+    make_ready(quality);
+    gles::Fluid& next = made(quality);
+    next.take_over(*fluid_);
+    fluid_ = &next;
+    quality_ = quality;
+    computed_for_.clear();
+    handover_.begin();
 }
 
 void Show::update(Instant now, Seconds dt, bool diagnose) {
@@ -84,6 +119,14 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     computed_for_[fluid_->steps()] = pose.time;
 }
 
+void Show::rest(Instant now) {
+    last_ = now;
+    ++figures_.rested;
+    if (answer_.sequence == 0) return;
+    answer_.computed_for = exchange_.pose.newest().time;
+    exchange_.fluid.publish(answer_);
+}
+
 void Show::reset() {
     fluid_->reset();
     time_s_ = 0.0;
@@ -99,18 +142,22 @@ void Show::publish(bool wait) {
         if (result->diagnostics) {
             figures_.divergence_before_1_s = result->diagnostics->divergence_before_1_s;
             figures_.divergence_after_1_s = result->diagnostics->divergence_max_1_s;
+            const glm::dvec3& size_m = scene_.tank.size_m;
+            const double mass_kg = scene_.fluid.density_kg_m3 * size_m.x * size_m.y * size_m.z;
+            figures_.fluid_speed_m_s = std::sqrt(2.0 * result->diagnostics->kinetic_energy_j / mass_kg);
         }
         const Instant computed_for = computed_for_[result->step];
         computed_for_.erase(computed_for_.begin(), computed_for_.upper_bound(result->step));
         const auto held = motions_.held();
         if (!held) continue;
-        const gles::Load& load = result->loads[*held];
-        exchange_.fluid.publish(
-            {load.force_n, load.torque_nm, ++sequence_, computed_for, Seconds(figures_.fluid_period_s)});
+        const gles::Load load = handover_.hand_on(result->loads[*held], computed_for);
+        answer_ = {load.force_n, load.torque_nm, answer_.sequence + 1, computed_for,
+                   Seconds(figures_.fluid_period_s)};
+        exchange_.fluid.publish(answer_);
         const glm::dvec3 felt_force = load.force_n * scene_.haptics.gain;
         ripple_.add(computed_for, felt_force);
         const double felt = glm::length(felt_force);
-        figures_.least_force_n = sequence_ == 1 ? felt : std::min(figures_.least_force_n, felt);
+        figures_.least_force_n = answer_.sequence == 1 ? felt : std::min(figures_.least_force_n, felt);
         figures_.most_force_n = std::max(figures_.most_force_n, felt);
     }
 }

@@ -6,6 +6,8 @@
 #include "firmware/body_schedule.h"
 #include "firmware/force_ripple.h"
 #include "firmware/haptic/exchange.h"
+#include "firmware/quality/force_handover.h"
+#include "firmware/quality/quality.h"
 #include "gles/fluid/fluid.h"
 
 namespace eddy {
@@ -17,6 +19,8 @@ struct ShowFigures {
     double least_force_n = 0.0, most_force_n = 0.0;  ///< of |raw force| on the hand, after gain
     double divergence_before_1_s = 0.0;              ///< of the last step that was diagnosed
     double divergence_after_1_s = 0.0;
+    std::optional<double> fluid_speed_m_s{};  ///< rms over the tank, of that step
+    long rested = 0;                          ///< updates left out because nothing moved
 };
 
 /// The fluid side of the exhibit: takes the newest pose of the hand, moves the fluid on, gives the force
@@ -25,9 +29,19 @@ class Show {
   public:
     Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange);
 
-    /// Takes a step and goes back to the start: drivers compile a shader when it is first drawn with, which
-    /// takes seconds on some and must not fall into the show.
-    void warm_up();
+    /// Makes fluids of these qualities, takes a step with each, lets neighbours take over from each other, and goes back to the
+    /// start: drivers compile a shader when it is first drawn with, which takes seconds on some and must not fall into the
+    /// show. Before the show only.
+    void warm_up(const std::vector<Quality>& qualities);
+    /// The same for one quality, during the show.
+    void make_ready(const Quality& quality);
+    bool is_ready(const Quality& quality) const { return fluids_.contains(quality); }
+    /// From now on the fluid is computed so, from where it is; the force goes over to it without a jump. Quick only if
+    /// it is ready.
+    void set_quality(const Quality& quality);
+    const Quality& quality() const { return quality_; }
+    /// In place of an update, while nothing moves: the last force stays the answer.
+    void rest(Instant now);
     /// One fluid update of dt ending at `now`; `diagnose` also measures the whole tank.
     void update(Instant now, Seconds dt, bool diagnose);
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
@@ -46,12 +60,20 @@ class Show {
     Scene scene_;
     HapticExchange& exchange_;
     BodySchedule motions_;
-    std::unique_ptr<gles::Fluid> fluid_;
+    gles::Fluid& made(const Quality& quality);
+    void take_a_step(gles::Fluid& fluid) const;
+
+    gles::Gpu& gpu_;
+    Quality quality_;
+    std::map<Quality, std::unique_ptr<gles::Fluid>>
+        fluids_;          ///< all that were asked for: going back is quick
+    gles::Fluid* fluid_;  ///< of quality_
+    ForceHandover handover_;
     std::vector<gles::BodyState> states_;
     double time_s_ = 0.0;  // of the fluid; falls behind the clock when steps are too slow and dt is capped
     Instant last_{0};
     bool hand_known_ = false;               // the device gave a position for the last step
-    std::uint64_t sequence_ = 0;            // of the answers given to the haptic loop
+    FluidSnapshot answer_;                  // the last given to the haptic loop
     std::map<long, Instant> computed_for_;  // step under way -> time of the pose it was given
     ShowFigures figures_;
     ForceRipple ripple_;

@@ -24,7 +24,8 @@ nlohmann::ordered_json to_json(const CostFigures& c) {
                              {"stages_ms", nlohmann::ordered_json::object()},
                              {"picture_ms", c.picture_ms},
                              {"quality_down", c.quality_down},
-                             {"quality_up", c.quality_up}};
+                             {"quality_up", c.quality_up},
+                             {"quality_note", c.quality_note}};
     if (c.force_error) j["force_error_share"] = *c.force_error;
     if (c.ripple) {
         j["force_ripple_n"] = c.ripple->rms;
@@ -44,6 +45,7 @@ bool write_status(const std::filesystem::path& file, const Status& s) {
     j["renderer"] = s.renderer;
     j["display"] = s.display;
     j["fluid"] = {{"steps", s.show.steps},
+                  {"rested", s.show.rested},
                   {"period_s", s.show.fluid_period_s},
                   {"divergence_before_1_s", s.show.divergence_before_1_s},
                   {"divergence_after_1_s", s.show.divergence_after_1_s},

@@ -52,6 +52,11 @@ double percentile_95(std::vector<double> values) {
     return percentile(std::move(values), 95);
 }
 
+void Stopwatch::forget() {
+    order_.clear();
+    timings_.clear();
+}
+
 Stopwatch::Moment Stopwatch::now() {
     gles::finish();
     return {milliseconds(CLOCK_PROCESS_CPUTIME_ID), milliseconds(CLOCK_MONOTONIC)};

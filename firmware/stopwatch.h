@@ -41,6 +41,8 @@ class Stopwatch {
 
     /// Turned on, it adds what each stage takes to one sample, however often it runs; turned on again, to the next.
     void set_on(bool on);
+    /// Another fluid is timed from now on.
+    void forget();
     /// Stages in the order they first ran.
     const std::vector<std::string>& stages() const { return order_; }
     const Timings& of(const std::string& stage) const { return timings_.at(stage); }

@@ -20,13 +20,10 @@ Run::Run(gles::Gpu& gpu, const Scene& scene, std::vector<double>& step_ms, Progr
 }
 
 gles::StepResult Run::step() {
-    return step(motions_.at(static_cast<double>(fluid_->steps() + 1) * dt_s_, dt_s_));
-}
-
-gles::StepResult Run::step(const std::vector<gles::BodyState>& bodies) {
     const Clock::time_point start = Clock::now();
+    const double t = static_cast<double>(fluid_->steps() + 1) * dt_s_;
     gles::StepResult result;
-    fluid_->step(dt_s_, bodies, diagnose_);
+    fluid_->step(dt_s_, motions_.at(t, dt_s_), diagnose_);
     if (measures_ || diagnose_)
         result = fluid_->wait_result();
     else

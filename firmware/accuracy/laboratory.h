@@ -18,8 +18,6 @@ class Run {
 
     /// One step. The result holds the loads on the bodies whose force is measured.
     gles::StepResult step();
-    /// One step that ends with the bodies like this, whatever the scene says of them.
-    gles::StepResult step(const std::vector<gles::BodyState>& bodies);
     /// All that are left until the scene's end; the last result. `after_each` may be empty.
     gles::StepResult step_to_end(const std::function<void(const gles::StepResult&)>& after_each = {});
     /// From now on results hold gles::Diagnostics too, which cost a pass over the grid.

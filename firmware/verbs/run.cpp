@@ -4,23 +4,24 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
+#include <map>
 #include <thread>
 
 #include "config/scene.h"
-#include "firmware/cost_page.h"
 #include "firmware/destination.h"
 #include "firmware/graphics.h"
 #include "firmware/haptic/loop.h"
 #include "firmware/haptic/realtime.h"
 #include "firmware/progress.h"
+#include "firmware/quality/quality_control.h"
 #include "firmware/recorder.h"
+#include "firmware/rest_watch.h"
 #include "firmware/show.h"
 #include "firmware/status.h"
 #include "firmware/stopwatch.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/verbs.h"
-#include "gles/render/renderer.h"
-#include "gles/render/text.h"
+#include "firmware/view.h"
 #include "hal/haptic/emulated/make_emulated_falcon.h"
 #include "hal/haptic/emulated/person_motion.h"
 #include "hal/haptic/emulated/recorded_motion.h"
@@ -35,14 +36,14 @@ using namespace std::chrono_literals;
 constexpr Seconds kLongestStep{0.1};
 constexpr Seconds kSlowWarmUp{2.0};  // worth a line
 constexpr Seconds kShortestStep{0.001};
+/// While nothing moves the fluid is computed this often, to see whether that is still so.
+constexpr Instant kRestPeriod = 500ms;
 /// A latched force comes back by itself once its cause has been gone for this long; it is brought in gently.
 constexpr Instant kLatchRest = 3s;
 /// One step in this many is timed stage by stage and diagnosed; both make it wait for the GPU.
 constexpr long kMeasureEvery = 20;
 /// Recording pictures may take this share of the time; the fluid has the rest.
 constexpr double kRenderShare = 0.4;
-/// How long what is written over the picture stays the same: as long as it takes to read a number.
-constexpr Instant kPageStays = 1s;
 
 std::atomic<bool> g_stop{false};
 
@@ -93,18 +94,17 @@ std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoi
     return emulated::make_emulated_falcon(std::move(motion), settings);
 }
 
-gles::RenderSetup render_setup(const Scene& scene) {
-    gles::RenderSetup r;
-    r.width_px = scene.render.width_px;
-    r.height_px = scene.render.height_px;
-    r.azimuth_deg = scene.render.azimuth_deg;
-    r.elevation_deg = scene.render.elevation_deg;
-    r.distance = scene.render.distance_factor;
-    r.optical_density_1_m = scene.render.extinction_1_m;
-    r.smoke_colour = scene.render.smoke_colour;
-    r.background_colour = scene.render.background_colour;
-    r.exposure = scene.render.exposure;
-    return r;
+/// What the quality of the fluid hangs on. A run on the stepped clock is the same on every machine: it keeps the scene's own.
+QualityControl::Setup quality_setup(const RunOptions& options, const Exhibit& exhibit, const Scene& scene) {
+    QualityControl::Setup setup{exhibit.presets, Seconds(exhibit.preset_s), {}};
+    const std::filesystem::path folder =
+        options.state_dir.empty() ? exhibit.state_dir : std::filesystem::path(options.state_dir);
+    // A flow that was written for one grid starts on that.
+    const bool may_tune =
+        options.clock == ClockChoice::Real && scene.initial.velocity_npy.empty() && !scene.imposed;
+    std::error_code none;
+    if (may_tune && std::filesystem::is_directory(folder, none)) setup.state_dir = folder;
+    return setup;
 }
 
 /// Everything one run holds, wired together.
@@ -117,20 +117,17 @@ class Run {
           device_(std::move(device)),
           device_name_(device_ ? "Novint Falcon, emulated" : "none"),
           graphics_(std::move(graphics)),
-          show_(graphics_->gpu, scene, exchange_),
+          quality_(graphics_->gpu, scene, quality_setup(options, exhibit, scene)),
+          show_(graphics_->gpu, with_quality(scene, quality_.first()), exchange_),
           stopwatch_(graphics_->gpu),
-          trace_(20000) {
-        if (!options.record.empty()) {
-            recorder_.emplace(options.record);
-            renderer_.emplace(graphics_->gpu, show_.fluid().setup(), render_setup(scene));
-            if (options.overlay.value_or(exhibit.overlay) == OverlayChoice::Cost)
-                overlay_.emplace(graphics_->gpu, renderer_->picture());
-        }
+          watch_(std::max({scene.tank.size_m.x, scene.tank.size_m.y, scene.tank.size_m.z})),
+          trace_(20000),
+          shows_cost_(options.overlay.value_or(exhibit.overlay) == OverlayChoice::Cost) {
+        if (!options.record.empty()) recorder_.emplace(options.record);
         HapticLoopSettings settings;
         settings.gate.max_force_n = std::min(scene.haptics.max_force_n, exhibit.max_force_n);
         if (device_) loop_.emplace(*device_, exchange_, trace_, settings);
-        orders_ = orders_for(scene, show_.fluid().setup());
-        exchange_.orders.publish(orders_);
+        give_orders();
         // status.json goes where it is asked for; by default to the run folder of the service, if there is
         // one.
         const std::filesystem::path folder =
@@ -156,9 +153,18 @@ class Run {
         return options_.seconds ? std::chrono::duration_cast<Instant>(Seconds(*options_.seconds))
                                 : Instant::max();
     }
+    /// The hand may go as far as the coarsest grid lets it.
+    void give_orders();
+    /// What is due at a time that is `interval` after the last: a step of the fluid, or rest.
+    void go_on(Instant now, Seconds interval);
     void fluid_update(Instant now, Seconds dt);
+    void change_quality(const QualityControl::Change& change);
+    /// What can wait until nobody is here.
+    void use_the_quiet();
+    /// Of the grid that is shown now.
+    View& view();
     void record_frame(Instant now);
-    CostFigures cost() const { return cost_figures(scene_, show_, stopwatch_, step_rate_); }
+    CostFigures cost() const;
     void drain_trace();
     void release_latch(Instant now);
     void report(Instant now, bool force = false);
@@ -170,16 +176,17 @@ class Run {
         device_name_;  // with its state once the loop has ended: only the loop's thread may ask the device
     HapticExchange exchange_;
     std::unique_ptr<Graphics> graphics_;
+    QualityControl quality_;
     Show show_;
     Stopwatch stopwatch_;
     StepRate step_rate_;
+    RestWatch watch_;
+    Instant rest_ends_{0};
     TickTrace trace_;
     std::vector<TickRecord> ticks_{4096};
     std::optional<HapticLoop> loop_;
-    std::optional<gles::Renderer> renderer_;
-    std::optional<gles::Text> overlay_;
-    gles::Page page_;
-    Instant page_due_{0};
+    bool shows_cost_;
+    std::map<int, View> views_;  ///< by cells along the longest side
     std::optional<Recorder> recorder_;
     std::filesystem::path status_file_;
     HapticOrders orders_;
@@ -192,35 +199,86 @@ class Run {
     Progress progress_{"run"};
 };
 
+void Run::give_orders() {
+    Quality coarsest = quality_.first();
+    for (const Quality& quality : quality_.all())
+        if (quality.cells < coarsest.cells) coarsest = quality;
+    const std::uint64_t resets = orders_.resets;
+    orders_ = orders_for(with_quality(scene_, coarsest), show_.fluid().setup());
+    orders_.resets = resets;
+    exchange_.orders.publish(orders_);
+}
+
 void Run::warm_up() {
     const RealClock clock;
-    show_.warm_up();
-    if (renderer_) renderer_->draw(show_.fluid(), show_.bodies());
-    if (overlay_) overlay_->draw(cost_page(cost(), renderer_->picture().size()));
+    show_.warm_up(quality_.all());
+    if (recorder_) view().draw(show_.fluid(), show_.bodies(), Instant(0), [this] { return cost(); });
     gles::finish();
     if (const Seconds took = clock.now(); took > kSlowWarmUp)
         fmt::print(stderr, "run: the driver took {:.1f} s to prepare its shaders\n", took.count());
 }
 
+View& Run::view() {
+    return views_
+        .try_emplace(show_.quality().cells, graphics_->gpu, show_.fluid().setup(), scene_, shows_cost_)
+        .first->second;
+}
+
+CostFigures Run::cost() const {
+    CostFigures figures = cost_figures(scene_, show_, stopwatch_, step_rate_);
+    figures.force_error = quality_.force_error(show_.quality());
+    figures.quality_down = quality_.steps_down();
+    figures.quality_up = quality_.steps_up();
+    figures.quality_note = quality_.note();
+    return figures;
+}
+
+void Run::go_on(Instant now, Seconds interval) {
+    const PoseSnapshot pose = exchange_.pose.newest();
+    watch_.see(now, pose.known ? std::optional(pose.position_m) : std::nullopt);
+    if (const auto speed = show_.figures().fluid_speed_m_s) watch_.fluid_moves_at(*speed);
+    if (watch_.nobody_here()) use_the_quiet();
+    if (watch_.may_rest() && now < rest_ends_) {
+        show_.rest(now);
+        return;
+    }
+    rest_ends_ = now + kRestPeriod;
+    fluid_update(now, std::min(interval, kLongestStep));
+    if (const auto change = quality_.update(now, interval, pose.buttons)) change_quality(*change);
+}
+
 void Run::fluid_update(Instant now, Seconds dt) {
-    const bool measure = show_.figures().steps % kMeasureEvery == kMeasureEvery / 2;
+    const bool measure = show_.figures().steps % kMeasureEvery == kMeasureEvery / 2 || watch_.may_rest();
     stopwatch_.set_on(measure);
+    const double start_ms = measure ? Stopwatch::now().wall_ms : 0.0;
     show_.update(now, dt, measure);
+    if (measure) quality_.step_took(Stopwatch::now().wall_ms - start_ms);
     step_rate_.add_step();
     stopwatch_.set_on(false);
 }
 
+void Run::change_quality(const QualityControl::Change& change) {
+    show_.set_quality(change.quality);
+    stopwatch_.forget();
+    fmt::print(stderr, "run: {} from now on: {}\n", describe(change.quality), change.reason);
+}
+
+void Run::use_the_quiet() {
+    for (const Quality& quality : quality_.all())
+        if (!show_.is_ready(quality)) {
+            show_.make_ready(quality);
+            give_orders();
+            return;
+        }
+    if (const auto text = quality_.work()) fmt::print(stderr, "run: {}\n", *text);
+}
+
 void Run::record_frame(Instant now) {
-    if (overlay_ && now >= page_due_) {
-        page_ = cost_page(cost(), renderer_->picture().size());
-        page_due_ = now + kPageStays;
-    }
     stopwatch_.set_on(true);
-    renderer_->draw(show_.fluid(), show_.bodies());
-    if (overlay_) overlay_->draw(page_);
+    view().draw(show_.fluid(), show_.bodies(), now, [this] { return cost(); });
     stopwatch_.set_on(false);
     try {
-        recorder_->add(*renderer_, scene_.render.width_px, scene_.render.height_px);
+        recorder_->add(view().renderer(), scene_.render.width_px, scene_.render.height_px);
     } catch (const std::runtime_error& e) {
         // A full disk must not stop the show.
         fmt::print(stderr, "recording stopped: {}\n", e.what());
@@ -291,7 +349,7 @@ void Run::real() {
     while (!g_stop && now < end()) {
         clock.sleep_until(last + period);
         now = clock.now();
-        fluid_update(now, std::min(Seconds(now - last), kLongestStep));
+        go_on(now, now - last);
         last = now;
         show_.publish(false);
         if (recorder_ && now >= frame_due_) {
@@ -332,7 +390,7 @@ void Run::stepped() {
         if (loop_) loop_->tick(clock.now());
         if (t + kTick < fluid_due) continue;
         show_.publish(show_.figures().steps > 0);
-        fluid_update(fluid_due, Seconds(period));
+        go_on(fluid_due, Seconds(period));
         if (recorder_ && fluid_due >= frame_due_) {
             record_frame(fluid_due);
             frame_due_ += frame_period;
@@ -398,11 +456,18 @@ int run(const RunOptions& options) {
             "solver.dt_s = {}: run keeps time in ticks of 1 ms; use at least 0.001 (simulate takes "
             "any)",
             scene.solver.dt_s));
+    // Each preset must be able to do what the scene asks for.
+    for (const SolverPreset preset : exhibit.presets) {
+        std::vector<std::string> set = options.set;
+        set.push_back(fmt::format("solver.preset={}", to_word(preset)));
+        load_scene(options.scene.empty() ? exhibit.scene : options.scene, set);
+    }
     require_no_screen(options.display.value_or(exhibit.display));
     BodySchedule{scene};  // reads the paths
     std::unique_ptr<HapticDevice> device = make_device(options, options.haptics.value_or(exhibit.haptics));
     if (!options.record.empty()) prepare_folder("--record", options.record);
     if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);
+    if (!options.state_dir.empty()) prepare_folder("--state-dir", options.state_dir);
     Run run(options, exhibit, scene, std::move(device), open_headless());
     run.warm_up();
     if (options.clock == ClockChoice::Real)

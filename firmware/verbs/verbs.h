@@ -71,9 +71,19 @@ struct RunOptions {
     std::string record;             ///< folder for pictures and force.csv
     double frames_per_s = 10.0;     ///< pictures recorded per second
     ClockChoice clock = ClockChoice::Real;
-    std::string run_dir;  ///< where status.json goes; empty: from the configuration, if writable
+    std::string run_dir;    ///< where status.json goes; empty: from the configuration, if writable
+    std::string state_dir;  ///< where tuning.json is; empty: from the configuration, if it is there
 };
 int run(const RunOptions& options);
+
+struct TuneOptions {
+    std::string scene;  ///< empty: what the exhibit's configuration says
+    std::vector<std::string> set;
+    std::string state_dir;  ///< as in RunOptions
+    bool show = false;      ///< print what is stored, and stop
+};
+/// 1 too if not even the cheapest setting keeps the rate.
+int tune(const TuneOptions& options);
 
 int check_config(const std::string& file);
 int print_config(const std::string& scene, const std::vector<std::string>& set, bool origin);

@@ -3,6 +3,8 @@
 #include "firmware/fluid_setup.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "tests/gles/gl_fixture.h"
 
@@ -137,6 +139,104 @@ TEST_F(ShowTest, ShowsBodiesWhereTheFluidTookThemAndTheHandWhereItIs) {
     EXPECT_NE(show.bodies().at(0).orientation, start) << "the air turns it";
     show.reset();
     EXPECT_EQ(show.bodies().at(1).centre_m, glm::dvec3(0.04, 0.08, 0.04));
+}
+
+/// Forces while a hand goes round in a circle once a second, and the greatest change from one to the next; before each step
+/// `at` may do something to the show.
+struct Stirred {
+    std::vector<glm::dvec3> forces;
+    double greatest_change = 0.0;
+};
+Stirred stir(Show& show, HapticExchange& exchange, int steps, const std::function<void(int)>& at) {
+    Stirred stirred;
+    for (int n = 1; n <= steps; ++n) {
+        const double angle = 2.0 * 3.14159265358979 * 0.02 * n;
+        exchange.pose.publish({{0.08 + 0.02 * std::cos(angle), 0.08 + 0.02 * std::sin(angle), 0.08},
+                               glm::dvec3(0.0),
+                               static_cast<std::uint64_t>(n),
+                               n * 20ms,
+                               0,
+                               true});
+        at(n);
+        show.update(n * 20ms, kDt, n == steps);
+        show.publish(true);
+        const glm::dvec3 force = exchange.fluid.newest().force_n;
+        if (n > 10)  // after the start
+            stirred.greatest_change =
+                std::max(stirred.greatest_change, glm::length(force - stirred.forces.back()));
+        stirred.forces.push_back(force);
+    }
+    return stirred;
+}
+
+TEST_F(ShowTest, PresetAndGridMayChangeUnderAStirringHandWithoutAJumpInForce) {
+    constexpr int kSteps = 90;
+    const Scene scene = scene_with("[smoke]\ninitial = \"1\"\n");
+    HapticExchange own;
+    Show show(gpu, scene, own);
+    const Quality fast = show.quality();
+    const std::vector<Quality> all{fast,
+                                   with_preset(fast, SolverPreset::Precise),
+                                   with_preset(fast, SolverPreset::Yang2009),
+                                   {SolverPreset::Fast, 24, 2}};
+    double of_itself =
+        0.0;  // change from step to step without a switch: the hand's, and what trembles in the settings
+    Stirred plain;
+    for (const Quality& quality : all) {
+        HapticExchange alone;
+        Show steady(gpu, with_quality(scene, quality), alone);
+        const Stirred stirred = stir(steady, alone, kSteps, [](int) {});
+        if (quality == fast) plain = stirred;
+        of_itself = std::max(of_itself, stirred.greatest_change);
+    }
+    show.warm_up(all);
+    const Stirred switched = stir(show, own, kSteps, [&](int n) {
+        if (n % 20 == 0) show.set_quality(all[static_cast<std::size_t>(n / 20) % all.size()]);
+    });
+    for (std::size_t n = 20; n < kSteps; n += 20)
+        for (std::size_t i = n; i < n + 5; ++i)
+            EXPECT_LT(glm::length(switched.forces[i] - switched.forces[i - 1]), 1.2 * of_itself)
+                << "step " << i + 1;
+    for (const glm::dvec3& force : switched.forces) EXPECT_TRUE(std::isfinite(glm::length(force)));
+    EXPECT_EQ(show.quality(), fast);
+    EXPECT_EQ(show.figures().steps, kSteps);
+    // Half a second after the last change it is the force of the fluid again: within what four settings have made of the flow.
+    EXPECT_LT(glm::length(switched.forces.back() - plain.forces.back()),
+              0.5 * glm::length(plain.forces.back()));
+}
+
+TEST_F(ShowTest, AnswersGoOnWithoutAGapWhenThePresetChanges) {
+    Show show(gpu, scene_with(""), exchange);
+    show.warm_up({show.quality(), with_preset(show.quality(), SolverPreset::Precise)});
+    stir(show, exchange, 12, [&](int n) {
+        if (n == 6) show.set_quality(with_preset(show.quality(), SolverPreset::Precise));
+        EXPECT_EQ(exchange.fluid.newest().sequence, static_cast<std::uint64_t>(n - 1));
+    });
+}
+
+TEST_F(ShowTest, WarmingUpLeavesTheFluidAtItsStart) {
+    const Scene scene = scene_with("");
+    HapticExchange a, b;
+    Show first(gpu, scene, a), second(gpu, scene, b);
+    second.warm_up({second.quality(), {SolverPreset::Fast, 24, 1}});
+    EXPECT_EQ(stir(first, a, 12, [](int) {}).forces, stir(second, b, 12, [](int) {}).forces);
+}
+
+TEST_F(ShowTest, WhileItRestsTheLastForceStaysTheAnswer) {
+    Show show(gpu, scene_with(""), exchange);
+    stir(show, exchange, 12, [](int) {});
+    const FluidSnapshot before = exchange.fluid.newest();
+    hand_at({0.1, 0.08, 0.08}, 260ms);
+    show.rest(260ms);
+    const FluidSnapshot& after = exchange.fluid.newest();
+    EXPECT_EQ(after.force_n, before.force_n);
+    EXPECT_EQ(after.computed_for, 260ms);
+    EXPECT_EQ(show.figures().steps, 12);
+    EXPECT_EQ(show.figures().rested, 1);
+    // Waking, a movement since the last look is a movement.
+    hand_at({0.102, 0.08, 0.08}, 280ms);
+    show.update(280ms, kDt, false);
+    EXPECT_GT(glm::length(show.bodies().at(0).velocity_m_s), 0.0);
 }
 
 TEST_F(ShowTest, FiguresRangeOverTheForceAfterGain) {

@@ -7,10 +7,9 @@
 #include "config/diagnostic.h"
 #include "config/nearest.h"
 #include "firmware/accuracy/convergence.h"
-#include "firmware/accuracy/references.h"
+#include "firmware/accuracy/set_off.h"
 #include "firmware/accuracy/study.h"
 #include "firmware/input_error.h"
-#include "gles/body/mass_properties.h"
 
 namespace eddy::accuracy::sweep {
 namespace {
@@ -29,44 +28,28 @@ double worst_of(const Case& one, Laboratory& lab, std::initializer_list<std::siz
     return worst;
 }
 
-glm::dvec3 force_on_first_body(const Run& run, const gles::StepResult& result, ForceWay way) {
+SetOff::ForceOn way_to_force(ForceWay way) {
     switch (way) {
         case ForceWay::Surface:
-            return result.loads.at(0).force_n;
+            return SetOff::on_surface;
         case ForceWay::Box:
-            return run.fluid().force_methods().at(0).box_n;
+            return [](const gles::Fluid& fluid, const gles::StepResult&) {
+                return fluid.force_methods().at(0).box_n;
+            };
         case ForceWay::Impulse:
-            return run.fluid().force_methods().at(0).impulse_n;
+            return [](const gles::Fluid& fluid, const gles::StepResult&) {
+                return fluid.force_methods().at(0).impulse_n;
+            };
     }
     throw std::logic_error("a way without a force");
 }
 
-/// A ball at rest in water at rest speeds up by U in each step: the water it takes along is pushed by F dt = -C_m rho V U.
-/// The first step of the movement is not judged, as yang2009 sees half of any change in the step after it; the worst of the
-/// next three is, as what the iterations leave of one step comes out in the next and may make up for the error of the
-/// grid there. A step at rest comes before all that: the first step of a fluid takes more cycles than those that are timed.
-/// The worst of places along a diagonal through one cell; C_m hardly changes by that (image dipoles: 1e-4).
 double set_off(Laboratory& lab, const Setting& setting) {
-    constexpr int kPlaces = 4;
-    const glm::dvec3 gained_m_s(0.001, 0.0, 0.0);  // a step
     double worst = 0.0;
-    for (int i = 0; i < kPlaces; ++i) {
-        Scene scene = lab.scene();
-        Scene::Body& ball = scene.bodies[0];
-        ball.centre_m += scene.tank.cell_m() * i / kPlaces * glm::dvec3(1.0, 0.7, 0.4);
-        ball.acceleration_m_s2 = glm::dvec3(0.0);
-        Run run = lab.start(scene);
-        run.step();
-        std::vector<gles::BodyState> bodies = run.fluid().bodies();
-        const double volume = gles::mass_properties(run.setup().bodies[0].shape).volume_m3;
-        const glm::dvec3 exact =
-            -references::kAddedMassInBox * scene.fluid.density_kg_m3 * volume / run.dt_s() * gained_m_s;
-        for (int step = 1; step <= 4; ++step) {
-            bodies[0].velocity_m_s = static_cast<double>(step) * gained_m_s;
-            bodies[0].centre_m += run.dt_s() * bodies[0].velocity_m_s;
-            const glm::dvec3 force = force_on_first_body(run, run.step(bodies), setting.force);
-            if (step > 1) worst = worse(worst, glm::length(force - exact) / glm::length(exact));
-        }
+    for (int place = 0; place < SetOff::kPlaces; ++place) {
+        SetOff ball(lab.gpu(), lab.scene(), place, way_to_force(setting.force));
+        while (!ball.done()) ball.step();
+        worst = worse(worst, ball.error());
     }
     return worst;
 }

@@ -42,21 +42,21 @@ void advance(Fluid& fluid, int steps) {
 }
 
 /// All that a run leaves behind.
-struct Outcome {
+struct StateAfter {
     std::vector<glm::vec3> velocity;
     std::vector<float> pressure, smoke, temperature;
     std::vector<glm::dvec3> centres, forces;
     std::vector<long> steps;
 
-    bool operator==(const Outcome&) const = default;
+    bool operator==(const StateAfter&) const = default;
 };
 
 std::vector<float> values(const Field<Cells>* s) {
     return s ? unpack_scalars(s->texture().download(), s->layout()) : std::vector<float>();
 }
 
-Outcome run(Fluid& fluid) {
-    Outcome outcome;
+StateAfter carry_on(Fluid& fluid) {
+    StateAfter outcome;
     for (int i = 0; i < 4; ++i) {
         advance(fluid, 1);
         for (const BodyState& body : fluid.bodies()) outcome.centres.push_back(body.centre_m);
@@ -87,9 +87,9 @@ void expect_twin_goes_on(Gpu& gpu, const FluidSetup& setup) {
     fresh->take_over(*fluid);
     used->take_over(*fluid);
     EXPECT_EQ(used->steps(), 3);
-    const Outcome itself = run(*fluid);
-    EXPECT_TRUE(run(*fresh) == itself) << "a new one";
-    EXPECT_TRUE(run(*used) == itself) << "one that had run before";
+    const StateAfter itself = carry_on(*fluid);
+    EXPECT_TRUE(carry_on(*fresh) == itself) << "a new one";
+    EXPECT_TRUE(carry_on(*used) == itself) << "one that had run before";
 }
 
 TEST_F(TakeOver, FromATwinGoesOnAsTheTwinWould) {
@@ -178,7 +178,7 @@ TEST_F(TakeOver, StaysFiniteBetweenAnyTwoKindsOfFluid) {
             advance(*source, 2);
             fluid->take_over(*source);
             EXPECT_EQ(fluid->steps(), 2);
-            const Outcome outcome = run(*fluid);
+            const StateAfter outcome = carry_on(*fluid);
             for (const glm::vec3& v : outcome.velocity) ASSERT_TRUE(std::isfinite(v.x + v.y + v.z));
             for (const float p : outcome.pressure) ASSERT_TRUE(std::isfinite(p));
             for (const float s : outcome.smoke) ASSERT_TRUE(std::isfinite(s));

@@ -1,0 +1,62 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+
+#include "firmware/quality/governor.h"
+#include "firmware/quality/preset_choice.h"
+#include "firmware/quality/tuner.h"
+
+namespace eddy {
+
+/// Decides with which quality the fluid of a running show is computed. One of three: presets that the visitor steps through; the
+/// ladder that this machine was tuned to, with a governor that keeps the rate; the scene as it is written.
+class QualityControl {
+  public:
+    struct Setup {
+        std::vector<SolverPreset> presets{};  ///< more than one: for the visitor to choose from
+        Seconds preset_every{0.0};            ///< they also change by themselves; 0: never
+        std::filesystem::path state_dir{};    ///< of tuning.json; empty: neither read nor written
+    };
+    QualityControl(gles::Gpu& gpu, const Scene& scene, Setup setup);
+
+    /// Every quality that update() may ask for, to be made ready before; neighbours follow each other most often.
+    std::vector<Quality> all() const;
+    /// The one to begin with.
+    Quality first() const;
+
+    /// After each update of the fluid. The quality to go on with, when it changes; and why, for the log.
+    struct Change {
+        Quality quality;
+        std::string reason;
+    };
+    std::optional<Change> update(Instant now, Seconds interval, std::uint8_t buttons);
+    /// Now and then: how long a step kept the machine busy.
+    void step_took(double busy_ms);
+
+    /// A piece of what can wait for a moment without visitors: tuning the machine if it was not. Returns what there is to say
+    /// about it, in a line.
+    std::optional<std::string> work();
+
+    /// Share of the force, if this quality was measured here.
+    std::optional<double> force_error(const Quality& quality) const;
+    int steps_down() const;
+    int steps_up() const;
+    /// Why the last step was taken, or what else there is to say. Empty: nothing.
+    std::string note() const;
+
+  private:
+    Quality in_preset(SolverPreset preset) const;
+    void adopt(const Tuning& tuning);
+
+    gles::Gpu& gpu_;
+    Scene scene_;
+    Setup setup_;
+    PresetChoice presets_;
+    std::vector<Rung> ladder_;
+    std::optional<Governor> governor_;
+    std::unique_ptr<Tuner> tuner_;
+    std::optional<Quality> adopted_;  ///< to be shown from the next update on
+    std::string trouble_;             ///< why there is no tuning
+};
+
+}  // namespace eddy

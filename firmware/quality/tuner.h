@@ -1,0 +1,56 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "firmware/accuracy/set_off.h"
+#include "firmware/body_schedule.h"
+#include "firmware/quality/tuning.h"
+
+namespace eddy {
+
+/// Finds out what this machine can do with a scene: keeps its preset and its time step, and tries grids and iterations of the
+/// pressure, each by its time per step of the scene and by the force on a ball, as many cells across as the body in the hand, that
+/// speeds up. Works in small pieces, so that
+/// an exhibit goes on showing something meanwhile. GL thread only.
+class Tuner {
+  public:
+    Tuner(gles::Gpu& gpu, const Scene& scene);
+
+    bool done() const { return series_ == kSeries; }
+    /// A piece: one step, or one fluid made and its shaders compiled.
+    void work();
+    /// What it is at, "fast 48^3, 2 cycles"; empty when done.
+    std::string doing() const;
+    /// Settings tried or passed over so far, of how many there are.
+    std::size_t tried() const { return series_ * grids_.size() + grid_; }
+    std::size_t most_to_try() const { return kSeries * grids_.size(); }
+    /// Complete when done.
+    const Tuning& tuning() const { return tuning_; }
+
+  private:
+    static constexpr std::size_t kSeries = 3;  ///< numbers of iterations, each on growing grids
+
+    Quality candidate() const;
+    /// To the next grid, or the next series if this one has become too slow.
+    void go_on(bool too_slow);
+    void time_a_step();
+    void finish_candidate();
+
+    gles::Gpu& gpu_;
+    Scene scene_;
+    Tuning tuning_;
+    std::vector<int> grids_;
+    double
+        ball_share_;  ///< half width of the body whose force matters most, over the longest side of the tank
+    std::size_t series_ = 0, grid_ = 0;
+
+    // --- of the candidate at hand
+    int places_done_ = 0;
+    std::unique_ptr<accuracy::SetOff> ball_;
+    double error_ = 0.0;
+    std::unique_ptr<gles::Fluid> fluid_;
+    std::optional<BodySchedule> motions_;
+    std::vector<double> step_ms_;
+};
+
+}  // namespace eddy

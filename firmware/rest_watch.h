@@ -1,0 +1,38 @@
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "hal/clock.h"
+
+namespace eddy {
+
+/// Tells when nobody is here, and when the show may rest: for some time nobody has moved the hand and, for resting, the fluid
+/// has been still. A hand that moves, comes or goes ends both at once.
+class RestWatch {
+  public:
+    /// It takes this long.
+    static constexpr Seconds kQuietFor{5.0};
+    /// Less than this is no movement of the hand: what encoders and a resting arm do.
+    static constexpr double kStill_m = 0.5e-3;
+    /// A fluid that takes longer than this to cross the tank is still.
+    static constexpr Seconds kStillCrossing{100.0};
+
+    /// `tank_m`: its longest side.
+    explicit RestWatch(double tank_m) : still_m_s_(tank_m / kStillCrossing.count()) {}
+
+    /// Before each update: where the hand is, if anywhere.
+    void see(Instant now, const std::optional<glm::dvec3>& hand_m);
+    /// When it was measured: root mean square of the fluid's speed. Nothing known yet counts as moving.
+    void fluid_moves_at(double speed_m_s) { still_ = speed_m_s <= still_m_s_; }
+
+    bool nobody_here() const { return now_ - hand_moved_ >= kQuietFor; }
+    bool may_rest() const { return nobody_here() && now_ - fluid_moved_ >= kQuietFor; }
+
+  private:
+    double still_m_s_;
+    bool still_ = false;
+    std::optional<glm::dvec3> at_;
+    Instant now_{0}, hand_moved_{0}, fluid_moved_{0};
+};
+
+}  // namespace eddy

@@ -1,0 +1,32 @@
+#include "firmware/view.h"
+
+#include "firmware/cost_page.h"
+#include "firmware/render_setup.h"
+
+namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How long what is written over the picture stays the same: as long as it takes to read a number.
+constexpr Instant kPageStays = 1s;
+
+}  // namespace
+
+View::View(gles::Gpu& gpu, const gles::FluidSetup& fluid, const Scene& scene, bool shows_cost)
+    : renderer_(gpu, fluid, render_setup(scene)) {
+    if (shows_cost) overlay_.emplace(gpu, renderer_.picture());
+}
+
+void View::draw(const gles::Fluid& fluid, const std::vector<gles::BodyState>& bodies, Instant now,
+                const std::function<CostFigures()>& figures) {
+    renderer_.draw(fluid, bodies);
+    if (!overlay_) return;
+    if (now >= page_due_) {
+        page_ = cost_page(figures(), renderer_.picture().size());
+        page_due_ = now + kPageStays;
+    }
+    overlay_->draw(page_);
+}
+
+}  // namespace eddy

@@ -1,0 +1,65 @@
+#include "firmware/quality/force_handover.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace eddy {
+namespace {
+
+gles::Load load(double x) {
+    return {{x, 0.0, 0.0}, {0.0, 2.0 * x, 0.0}};
+}
+
+TEST(ForceHandover, PassesOnWhatItGetsWhenNothingChanges) {
+    ForceHandover handover;
+    for (int n = 0; n < 100; ++n)
+        EXPECT_EQ(handover.hand_on(load(std::sin(n)), Seconds(0.02 * n)).force_n.x, std::sin(n));
+}
+
+TEST(ForceHandover, LastForceStandsUntilTheNewFluidHasSettledAndTheFadeBeginsThere) {
+    ForceHandover handover;
+    handover.hand_on(load(3.0), Seconds(1.0));
+    handover.begin();
+    for (int n = 0; n < ForceHandover::kSettling; ++n)
+        EXPECT_EQ(handover.hand_on(load(100.0 * n), Seconds(1.02 + 0.02 * n)).force_n.x, 3.0);
+    const gles::Load first = handover.hand_on(load(-5.0), Seconds(1.1));
+    EXPECT_DOUBLE_EQ(first.force_n.x, 3.0);
+    EXPECT_DOUBLE_EQ(first.torque_nm.y, 6.0);
+}
+
+TEST(ForceHandover, EndsAtTheNewForceAfterHalfASecondAndHasNoStepOnItsWay) {
+    ForceHandover handover;
+    handover.hand_on(load(3.0), Seconds(0.0));
+    handover.begin();
+    double last = 3.0, most = 0.0;
+    for (int n = 1; n <= 60; ++n) {
+        const double now = handover.hand_on(load(-5.0), Seconds(0.01 * n)).force_n.x;
+        most = std::max(most, std::abs(now - last));
+        last = now;
+    }
+    EXPECT_EQ(last, -5.0);
+    EXPECT_LT(most, 8.0 * 1.5 * 0.01 / ForceHandover::kFade.count() * 1.01);  // the steepest of the fade
+}
+
+TEST(ForceHandover, MayBeginAgainBeforeItHasEnded) {
+    ForceHandover handover;
+    handover.hand_on(load(1.0), Seconds(0.0));
+    handover.begin();
+    double before = 0.0;
+    for (int n = 1; n <= 10; ++n) before = handover.hand_on(load(2.0), Seconds(0.02 * n)).force_n.x;
+    EXPECT_GT(before, 1.0);
+    EXPECT_LT(before, 2.0);
+    handover.begin();
+    for (int n = 11; n <= 11 + ForceHandover::kSettling; ++n)
+        EXPECT_DOUBLE_EQ(handover.hand_on(load(-7.0), Seconds(0.02 * n)).force_n.x, before);
+}
+
+TEST(ForceHandover, FirstForceOfAllIsNotFadedIn) {
+    ForceHandover handover;
+    handover.begin();
+    EXPECT_EQ(handover.hand_on(load(4.0), Seconds(0.0)).force_n.x, 4.0);
+}
+
+}  // namespace
+}  // namespace eddy
