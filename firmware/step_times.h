@@ -20,9 +20,6 @@ struct StepTimes {
     Timings stage(const std::string& name) const;
 };
 
-/// Steps of warm-up: shaders are compiled, textures made, the pressure warm.
-inline constexpr int kWarmUpSteps = 5;
-
 /// Times `repeats` steps after the warm-up; fewer, but at least five, if they take longer than half a minute.
 StepTimes time_steps(gles::Gpu& gpu, const Scene& scene, int repeats);
 

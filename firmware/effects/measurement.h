@@ -9,7 +9,7 @@
 namespace eddy::effects {
 
 /// What each variant of a scene costs.
-struct Measurement {
+struct EffectCosts {
     EffectStudy study;
     CostClock clock = CostClock::Wall;
     struct Variant {
@@ -22,16 +22,13 @@ struct Measurement {
     const Variant& without(const EffectAdded& added) const { return variants[added.without]; }
 };
 
-inline constexpr int kWarmUp =
-    5;  ///< rounds before timing starts: shaders are compiled, the pressure is warm
-
 using ShowProgress = std::function<void(double done, double total)>;
 
-/// Plans every variant, then lets all take a step in turn, round after round, so that a busy moment of the machine falls on
-/// all alike.
-Measurement measure(Graphics& graphics, EffectStudy study, int repeats, const ShowProgress& show);
+/// Plans every variant and warms all up, then lets all take a step in turn, round after round, so that a busy moment of the
+/// machine falls on all alike.
+EffectCosts measure(Graphics& graphics, EffectStudy study, int repeats, const ShowProgress& show);
 
 /// Round by round, what a step with the effect took longer than one without.
-std::vector<double> added_ms(const Measurement& measurement, const EffectAdded& added, CostClock clock);
+std::vector<double> added_ms(const EffectCosts& costs, const EffectAdded& added, CostClock clock);
 
 }  // namespace eddy::effects

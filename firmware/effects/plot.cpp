@@ -12,7 +12,7 @@ namespace {
 constexpr double kAbove = 80.0, kBelow = 60.0;  ///< room for title and axes [px]
 
 /// Columns: row, and both ways to add the effect as p25, p50, p75 of ms, and MB.
-std::string row_text(const Measurement& m, std::size_t place, const EffectStudy::Row& row) {
+std::string row_text(const EffectCosts& m, std::size_t place, const EffectStudy::Row& row) {
     std::string text = fmt::format("{}", place);
     for (const EffectAdded& added : {row.to_whole, row.to_bare}) {
         const std::vector<double> ms = added_ms(m, added, m.clock);
@@ -27,7 +27,7 @@ std::string row_text(const Measurement& m, std::size_t place, const EffectStudy:
 
 }  // namespace
 
-bool plot(const Measurement& m, const gles::Capabilities& driver, const std::filesystem::path& picture) {
+bool plot(const EffectCosts& m, const gles::Capabilities& driver, const std::filesystem::path& picture) {
     std::string data, names;
     const std::vector<const EffectStudy::Row*> rows = costliest_first(m);
     for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -18,14 +18,14 @@ std::size_t widest(const EffectStudy& study) {
     return width;
 }
 
-std::vector<CostClock> clocks_of(const Measurement& m) {
+std::vector<CostClock> clocks_of(const EffectCosts& m) {
     std::vector<CostClock> clocks{CostClock::Cpu, CostClock::Wall};
     if (!m.variants[0].times.gpu_ms.empty()) clocks.push_back(CostClock::Gpu);
     return clocks;
 }
 
 /// Five columns: what the effect adds.
-std::string added_text(const Measurement& m, const EffectAdded& added) {
+std::string added_text(const EffectCosts& m, const EffectAdded& added) {
     const std::vector<double> ms = added_ms(m, added, m.clock);
     const StepCost &with = m.with(added).cost, &without = m.without(added).cost;
     return fmt::format("{:>9.2f} {:>16} {:>7} {:>8.2f} {:>7.2f}", median(ms),
@@ -36,7 +36,7 @@ std::string added_text(const Measurement& m, const EffectAdded& added) {
 
 }  // namespace
 
-std::string table_of_variants(const Measurement& m) {
+std::string table_of_variants(const EffectCosts& m) {
     const std::size_t width = widest(m.study);
     std::string head, units;
     for (const CostClock clock : clocks_of(m)) {
@@ -48,7 +48,7 @@ std::string table_of_variants(const Measurement& m) {
                     width, head, "passes", "uniforms", "fetches [M]", "written", "textures", "", width, units,
                     "", "", "", "[MB]", "[MB]");
     for (std::size_t v = 0; v < m.variants.size(); ++v) {
-        const Measurement::Variant& variant = m.variants[v];
+        const EffectCosts::Variant& variant = m.variants[v];
         text += fmt::format("{:<{}}", m.study.variants[v].name, width);
         for (const CostClock clock : clocks_of(m)) {
             const std::vector<double>& ms = by(clock, variant.times);
@@ -61,7 +61,7 @@ std::string table_of_variants(const Measurement& m) {
     return text;
 }
 
-std::vector<const EffectStudy::Row*> costliest_first(const Measurement& m) {
+std::vector<const EffectStudy::Row*> costliest_first(const EffectCosts& m) {
     std::vector<const EffectStudy::Row*> rows;
     for (const EffectStudy::Row& row : m.study.rows) rows.push_back(&row);
     std::stable_sort(rows.begin(), rows.end(), [&](const auto* a, const auto* b) {
@@ -70,7 +70,7 @@ std::vector<const EffectStudy::Row*> costliest_first(const Measurement& m) {
     return rows;
 }
 
-std::string table_of_effects(const Measurement& m) {
+std::string table_of_effects(const EffectCosts& m) {
     constexpr int kWidth = 22;
     const std::string ms = fmt::format("{} ms", to_string(m.clock));
     const auto columns = [&](const char* first) {
@@ -96,7 +96,7 @@ std::string table_of_effects(const Measurement& m) {
     return text;
 }
 
-std::string summary_of(const Measurement& m) {
+std::string summary_of(const EffectCosts& m) {
     const EffectAdded& rest = m.study.all_but_bodies;
     const double whole = median(by(m.clock, m.with(rest).times)),
                  bare = median(by(m.clock, m.without(rest).times));
@@ -109,7 +109,7 @@ std::string summary_of(const Measurement& m) {
         whole_mb);
 }
 
-std::string csv_of(const Measurement& m) {
+std::string csv_of(const EffectCosts& m) {
     std::string text = "effect,added_to,with,without";
     for (const char* count : {"passes", "uniforms", "texels", "bytes_written", "fetches", "texture_bytes"})
         text += fmt::format(",{0}_with,{0}_without", count);

@@ -24,7 +24,7 @@ nlohmann::ordered_json json_of(const StepCost& cost) {
             {"texture_bytes", cost.texture_bytes}};
 }
 
-nlohmann::ordered_json json_of(const Measurement& m, const EffectAdded& added) {
+nlohmann::ordered_json json_of(const EffectCosts& m, const EffectAdded& added) {
     nlohmann::ordered_json j{{"with", m.study.variants[added.with].name},
                              {"without", m.study.variants[added.without].name}};
     for (const CostClock clock : {CostClock::Cpu, CostClock::Wall, CostClock::Gpu}) {
@@ -38,7 +38,7 @@ nlohmann::ordered_json json_of(const Measurement& m, const EffectAdded& added) {
 
 }  // namespace
 
-std::string json_of(const Measurement& m, const gles::Capabilities& driver) {
+std::string json_of(const EffectCosts& m, const gles::Capabilities& driver) {
     const Scene& scene = m.study.variants[0].scene;
     const glm::ivec3& n = scene.tank.cells;
     nlohmann::ordered_json j{{"eddy_version", EDDY_VERSION}, {"scene", scene.title},

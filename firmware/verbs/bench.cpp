@@ -9,6 +9,7 @@
 #include "firmware/machine.h"
 #include "firmware/progress.h"
 #include "firmware/scene_grid.h"
+#include "firmware/step_timer.h"
 #include "firmware/step_times.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/verbs.h"
@@ -20,19 +21,19 @@ constexpr SolverPreset kPresets[] = {SolverPreset::Fast, SolverPreset::Precise, 
 constexpr int kGrids[] = {25, 32, 48, 64, 96, 128};
 
 /// One preset on one grid.
-struct Measurement {
+struct PresetTimes {
     int cells;  // along the longest side
     std::string preset;
     StepTimes times;
 };
 
-Measurement measure(gles::Gpu& gpu, Scene scene, int cells, SolverPreset preset, int repeats) {
+PresetTimes measure(gles::Gpu& gpu, Scene scene, int cells, SolverPreset preset, int repeats) {
     scene = with_longest_side(std::move(scene), cells);
     scene.solver.preset = preset;
     return {cells, std::string(to_word(preset)), time_steps(gpu, scene, repeats)};
 }
 
-void print(const Measurement& m, const Measurement* yardstick) {
+void print(const PresetTimes& m, const PresetTimes* yardstick) {
     const double fetches = static_cast<double>(m.times.fetches);
     fmt::print(
         "\n{}^3 {}: {} passes, {:.1f} M fetches, {:.1f} MB written; a step cuts max|div u| {:.0f}-fold; {} "
@@ -64,7 +65,7 @@ nlohmann::ordered_json to_json(const Timings& t) {
             {"repeats", t.wall_ms.size()}};
 }
 
-std::string to_json(const std::vector<Measurement>& all, const gles::Capabilities& driver,
+std::string to_json(const std::vector<PresetTimes>& all, const gles::Capabilities& driver,
                     const Scene& scene) {
     nlohmann::ordered_json j;
     j["eddy_version"] = EDDY_VERSION;
@@ -72,7 +73,7 @@ std::string to_json(const std::vector<Measurement>& all, const gles::Capabilitie
     j["renderer"] = driver.renderer;
     j["gl_version"] = driver.version;
     j["machine"] = describe_machine();
-    for (const Measurement& m : all) {
+    for (const PresetTimes& m : all) {
         nlohmann::ordered_json one{{"cells", m.cells},
                                    {"preset", m.preset},
                                    {"passes", m.times.passes},
@@ -107,7 +108,7 @@ int bench(const BenchOptions& options) {
         "each;\n"
         "whole steps are not, so they may be shorter than the sum.\n",
         scene.title, options.repeats, kWarmUpSteps);
-    std::vector<Measurement> all;
+    std::vector<PresetTimes> all;
     Progress progress("bench");
     const double total = static_cast<double>(grids.size() * std::size(kPresets));
     for (const int cells : grids) {

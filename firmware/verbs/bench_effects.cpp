@@ -9,6 +9,7 @@
 #include "firmware/machine.h"
 #include "firmware/progress.h"
 #include "firmware/scene_grid.h"
+#include "firmware/step_timer.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/verbs.h"
 
@@ -48,7 +49,7 @@ void explain(const effects::EffectStudy& study, const BenchOptions& options) {
         "warm-up. Passes, fetches and MB are what the plan of one step says (eddy simulate SCENE "
         "--plan).\n\n",
         scene.title, n.x, n.y, n.z, to_word(scene.solver.preset), study.variants.size(), options.repeats,
-        effects::kWarmUp);
+        kWarmUpSteps);
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ int bench_effects(const BenchOptions& options) {
         explain(study, options);
     }
     Progress progress("bench --effects");
-    const effects::Measurement measured =
+    const effects::EffectCosts measured =
         effects::measure(*graphics, std::move(study), options.repeats,
                          [&](double done, double total) { progress.show(done, total); });
     progress.finish();

@@ -6,6 +6,7 @@
 #include "firmware/paper/figures.h"
 #include "firmware/progress.h"
 #include "firmware/scene_grid.h"
+#include "firmware/step_timer.h"
 #include "firmware/verbs/verbs.h"
 
 namespace eddy {
@@ -26,7 +27,7 @@ int bench_paper(const BenchOptions& options) {
     const std::string renderer = graphics->gpu.capabilities().renderer;
     fmt::print("{}\n{}\nscene: {}; up to {} repeats after {} steps of warm-up\n\n", renderer,
                describe_machine(), scene.title, options.repeats, kWarmUpSteps);
-    const CostClock clock = graphics->in_software() ? CostClock::Cpu : CostClock::Wall;
+    const CostClock clock = best_clock_of_stages(*graphics);
     fmt::print("{:<14}{:<30}{}\n", fmt::format("{} ms", to_string(clock)), "    added up on the GPU",
                "    added up on the CPU");
     fmt::print("  {:<12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "grid", "step", "force", "its sum", "step",

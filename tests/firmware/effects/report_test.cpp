@@ -18,8 +18,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 /// Of a scene with smoke and viscosity: the whole, the empty tank, without each. Three rounds of 10, 11 and 12 ms of the whole;
 /// viscosity always costs 6 ms and smoke 1, 1 and 4.
-Measurement small_measurement() {
-    Measurement m{study_effects(read_scene("[smoke]\n[fluid]\nviscosity_pa_s = 0.1\n", "t.toml").scene),
+EffectCosts small_measurement() {
+    EffectCosts m{study_effects(read_scene("[smoke]\n[fluid]\nviscosity_pa_s = 0.1\n", "t.toml").scene),
                   CostClock::Cpu,
                   {}};
     const std::vector<double> cpu[] = {{10, 11, 12}, {3, 3, 3}, {4, 5, 6}, {9, 10, 8}};
@@ -31,14 +31,14 @@ Measurement small_measurement() {
 }
 
 TEST(EffectReport, AddsUpRoundByRound) {
-    const Measurement m = small_measurement();
+    const EffectCosts m = small_measurement();
     EXPECT_EQ(added_ms(m, m.study.rows[0].to_whole, CostClock::Cpu), (std::vector<double>{6, 6, 6}));
     EXPECT_EQ(added_ms(m, m.study.rows[1].to_whole, CostClock::Cpu), (std::vector<double>{1, 1, 4}));
     EXPECT_TRUE(added_ms(m, m.study.rows[1].to_whole, CostClock::Gpu).empty());
 }
 
 TEST(EffectReport, HasALineForEachVariantAndEachEffectTheCostliestFirst) {
-    const Measurement m = small_measurement();
+    const EffectCosts m = small_measurement();
     const std::vector<std::string> variants = lines_of(table_of_variants(m));
     ASSERT_EQ(variants.size(), 2u + 4u);
     EXPECT_THAT(variants[2], HasSubstr("whole scene"));
@@ -54,17 +54,17 @@ TEST(EffectReport, HasALineForEachVariantAndEachEffectTheCostliestFirst) {
 }
 
 TEST(EffectReport, OfEffectsThatNeedOthersSaysWhatGoesWithThem) {
-    Measurement m{
+    EffectCosts m{
         study_effects(read_scene("[smoke]\ndissipation_1_s = 1\n", "t.toml").scene), CostClock::Cpu, {}};
     m.variants.resize(m.study.variants.size(), {{}, {{1.0}, {1.0}}});
     EXPECT_THAT(table_of_effects(m), HasSubstr("smoke left out takes along: smoke fading\n"));
 }
 
 TEST(EffectReport, AsCsvHasAsManyFieldsInEachLineAsInItsHeader) {
-    Measurement m = small_measurement();
+    EffectCosts m = small_measurement();
     for (const bool has_gpu : {false, true}) {
         if (has_gpu)
-            for (Measurement::Variant& variant : m.variants) variant.times.gpu_ms = {1, 2, 3};
+            for (EffectCosts::Variant& variant : m.variants) variant.times.gpu_ms = {1, 2, 3};
         const std::vector<std::string> lines = lines_of(csv_of(m));
         ASSERT_EQ(lines.size(), 1u + 2u * 2u + 1u);
         const auto fields = std::count(lines[0].begin(), lines[0].end(), ',');
