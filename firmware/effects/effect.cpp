@@ -1,7 +1,6 @@
 #include "firmware/effects/effect.h"
 
 #include <algorithm>
-#include <array>
 
 namespace eddy::effects {
 namespace {
@@ -38,20 +37,15 @@ bool lets_through(const Scene::Wall& wall) {
     return wall.kind == WallKind::Inflow || wall.kind == WallKind::Open;
 }
 
-template <class Walls>
-auto six(Walls& w) {
-    return std::array{&w.x_low, &w.x_high, &w.y_low, &w.y_high, &w.z_low, &w.z_high};
-}
-
 template <class Predicate>
 bool any_wall(const Scene& scene, Predicate predicate) {
-    const auto walls = six(scene.tank.walls);
+    const auto walls = scene.tank.walls.all();
     return std::any_of(walls.begin(), walls.end(), [&](const Scene::Wall* wall) { return predicate(*wall); });
 }
 
 template <class Predicate>
 void make_slip(Scene& scene, Predicate predicate) {
-    for (Scene::Wall* wall : six(scene.tank.walls))
+    for (Scene::Wall* wall : scene.tank.walls.all())
         if (predicate(*wall)) *wall = {};
 }
 
