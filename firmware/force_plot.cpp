@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "firmware/gnuplot.h"
-#include "firmware/text_file.h"
 
 namespace eddy {
 namespace {
@@ -67,22 +66,19 @@ std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& fo
         const double middle = 0.5 * (low[a] + high[a]);
         ranges += fmt::format("set {}range [{:.1f}:{:.1f}]\n", "xyz"[a], middle - half, middle + half);
     }
-    const std::filesystem::path folder = force_csv.parent_path(), script = folder / "motion.gnuplot",
-                                picture = folder / "motion.png";
-    replace_text_file(
-        script,
-        fmt::format("set terminal pngcairo size 1000,800\n"
-                    "set output {}\n"
+    const GnuplotPicture picture{
+        force_csv.parent_path() / "motion.png", 1000, 800,
+        fmt::format("set border 31\n"
                     "$path << EOD\n{}EOD\n"
                     "set title 'Hand (blue) and force on it (red; the longest arrow is {:.2f} N)'\n"
                     "set xlabel 'x right [mm]'\nset ylabel 'z to the visitor [mm]'\n"
                     "set zlabel 'y up [mm]' rotate parallel\n"
-                    "set view 70, 25\nset view equal xyz\nset xyplane relative 0\nset grid\nset key off\n{}"
+                    "set view 70, 25\nset view equal xyz\nset xyplane relative 0\nset key off\n{}"
                     "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"
                     "      $path using 1:2:3 with points pt 7 ps 0.5 lc rgb '#2050c0'\n",
-                    in_gnuplot_quotes(picture.string()), data, strongest, ranges));
-    if (!run_gnuplot(script, "the motion")) return std::nullopt;
-    return picture;
+                    data, strongest, ranges)};
+    if (draw_with_gnuplot({picture}).empty()) return std::nullopt;
+    return picture.file;
 }
 
 }  // namespace eddy

@@ -6,6 +6,8 @@
 
 #include <cerrno>
 
+#include "firmware/text_file.h"
+
 extern char** environ;
 
 namespace eddy {
@@ -23,6 +25,15 @@ int run(const std::filesystem::path& script) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// The style is that of a diagram in the plane; what has other axes sets its own.
+std::string head_of(const GnuplotPicture& picture) {
+    return fmt::format(
+        "set terminal pngcairo size {},{} font 'sans,11' noenhanced\nset output {}\n"
+        "set border 3 lc rgb '#404040'\nset tics nomirror\nset grid lt 1 lc rgb '#e0e0e0'\n",
+        picture.width_px, picture.height_px,
+        in_gnuplot_quotes(std::filesystem::absolute(picture.file).string()));
+}
+
 }  // namespace
 
 std::string in_gnuplot_quotes(const std::string& text) {
@@ -31,14 +42,33 @@ std::string in_gnuplot_quotes(const std::string& text) {
     return result + "'";
 }
 
-bool run_gnuplot(const std::filesystem::path& script, const std::string& plot_of) {
-    const int status = run(script);
-    if (status == 0) return true;
-    fmt::print(
-        stderr, "no plot of {}: {}; the script is {}\n", plot_of,
-        status < 0 || status == 127 ? "gnuplot is not installed (package gnuplot-nox)" : "gnuplot failed",
-        script.string());
-    return false;
+std::filesystem::path script_of(const GnuplotPicture& picture) {
+    std::filesystem::path script = picture.file;
+    return script.replace_extension(".gnuplot");
+}
+
+std::vector<std::filesystem::path> draw_with_gnuplot(const std::vector<GnuplotPicture>& pictures) {
+    std::vector<std::filesystem::path> drawn;
+    std::vector<std::string> missing, scripts;
+    bool installed = true;
+    for (const GnuplotPicture& picture : pictures) {
+        const std::filesystem::path script = script_of(picture);
+        replace_text_file(script, head_of(picture) + picture.commands);
+        const int status = run(script);
+        if (status == 0) {
+            drawn.push_back(picture.file);
+            continue;
+        }
+        installed &= status > 0 && status != 127;
+        missing.push_back(picture.file.filename().string());
+        scripts.push_back(script.string());
+    }
+    if (!missing.empty())
+        fmt::print(stderr, "not drawn: {}: {}; to draw them later, run gnuplot on {}\n",
+                   fmt::join(missing, ", "),
+                   installed ? "gnuplot failed" : "gnuplot is not installed (package gnuplot-nox)",
+                   fmt::join(scripts, " "));
+    return drawn;
 }
 
 }  // namespace eddy

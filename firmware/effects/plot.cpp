@@ -4,12 +4,11 @@
 
 #include "firmware/effects/report.h"
 #include "firmware/gnuplot.h"
-#include "firmware/text_file.h"
 
 namespace eddy::effects {
 namespace {
 
-constexpr double kAbove = 80.0, kBelow = 60.0;  ///< room for title and axes [px]
+constexpr int kAbove = 80, kBelow = 60;  ///< room for title and axes [px]
 
 /// Columns: row, and both ways to add the effect as p25, p50, p75 of ms, and MB.
 std::string row_text(const EffectCosts& m, std::size_t place, const EffectStudy::Row& row) {
@@ -45,40 +44,35 @@ bool plot(const EffectCosts& m, const gles::Capabilities& driver, const std::fil
         in_gnuplot_quotes(
             fmt::format("whole scene {:.3g} ms, {} {:.3g} ms", median(by(m.clock, m.with(rest).times)),
                         m.study.variants[rest.without].name, median(by(m.clock, m.without(rest).times))));
-    std::filesystem::path script = picture;
-    script.replace_extension(".gnuplot");
-    const double height = kAbove + kBelow + 36.0 * static_cast<double>(rows.size());  // [px]
+    const int height_px = kAbove + kBelow + 36 * static_cast<int>(rows.size());
+    const double height = height_px;
     // Bars are boxes from 0; a whisker spans the middle half of the differences.
-    replace_text_file(
-        script,
-        fmt::format("set terminal pngcairo size 1200,{} font 'sans,11' noenhanced\n"
-                    "set output {}\n"
-                    "$effects << EOD\n{}EOD\n"
-                    "set multiplot title {} noenhanced\n"
-                    "set style fill solid 0.85 noborder\nset border 1 lc rgb '#404040'\n"
-                    "set yrange [{}:-0.7]\nset ytics ({}) scale 0\nset xtics nomirror out\nset grid xtics\n"
-                    "set arrow 1 from 0, graph 0 to 0, graph 1 nohead lc rgb '#404040'\n"
-                    "set key bottom right spacing 1.2 opaque\n"
-                    "set tmargin at screen {}\nset bmargin at screen {}\n"
-                    "set lmargin at screen 0.15\nset rmargin at screen 0.66\n"
-                    "set xlabel '{} time added [ms a step]'\n"
-                    "plot $effects using (0.5*$3):($1-0.19):(0.5*$3):(0.17) with boxxyerror lc rgb "
-                    "'#2050c0' title 'to the rest of the scene', \\\n"
-                    "     '' using (0.5*$7):($1+0.19):(0.5*$7):(0.17) with boxxyerror lc rgb '#e09020' "
-                    "title 'to the bodies and what it needs', \\\n"
-                    "     '' using 3:($1-0.19):2:4 with xerrorbars pt 0 lc rgb '#101010' notitle, \\\n"
-                    "     '' using 7:($1+0.19):6:8 with xerrorbars pt 0 lc rgb '#101010' title "
-                    "'middle half of the rounds'\n"
-                    "set lmargin at screen 0.69\nset rmargin at screen 0.97\nunset ytics\n"
-                    "unset key\nset xlabel 'textures added [MB]'\n"
-                    "plot $effects using (0.5*$5):($1-0.19):(0.5*$5):(0.17) with boxxyerror lc rgb "
-                    "'#2050c0', \\\n"
-                    "     '' using (0.5*$9):($1+0.19):(0.5*$9):(0.17) with boxxyerror lc rgb '#e09020'\n"
-                    "unset multiplot\n",
-                    height, in_gnuplot_quotes(picture.string()), data, title,
-                    static_cast<double>(rows.size()) - 0.3, names, 1.0 - kAbove / height, kBelow / height,
-                    to_string(m.clock)));
-    return run_gnuplot(script, "the effects");
+    const std::string commands = fmt::format(
+        "$effects << EOD\n{}EOD\n"
+        "set multiplot title {}\n"
+        "set style fill solid 0.85 noborder\nset border 1\n"
+        "set yrange [{}:-0.7]\nset ytics ({}) scale 0\nset xtics out\nset grid noytics\n"
+        "set arrow 1 from 0, graph 0 to 0, graph 1 nohead lc rgb '#404040'\n"
+        "set key bottom right spacing 1.2 opaque\n"
+        "set tmargin at screen {}\nset bmargin at screen {}\n"
+        "set lmargin at screen 0.15\nset rmargin at screen 0.66\n"
+        "set xlabel '{} time added [ms a step]'\n"
+        "plot $effects using (0.5*$3):($1-0.19):(0.5*$3):(0.17) with boxxyerror lc rgb "
+        "'#2050c0' title 'to the rest of the scene', \\\n"
+        "     '' using (0.5*$7):($1+0.19):(0.5*$7):(0.17) with boxxyerror lc rgb '#e09020' "
+        "title 'to the bodies and what it needs', \\\n"
+        "     '' using 3:($1-0.19):2:4 with xerrorbars pt 0 lc rgb '#101010' notitle, \\\n"
+        "     '' using 7:($1+0.19):6:8 with xerrorbars pt 0 lc rgb '#101010' title "
+        "'middle half of the rounds'\n"
+        "set lmargin at screen 0.69\nset rmargin at screen 0.97\nunset ytics\n"
+        "unset key\nset xlabel 'textures added [MB]'\n"
+        "plot $effects using (0.5*$5):($1-0.19):(0.5*$5):(0.17) with boxxyerror lc rgb "
+        "'#2050c0', \\\n"
+        "     '' using (0.5*$9):($1+0.19):(0.5*$9):(0.17) with boxxyerror lc rgb '#e09020'\n"
+        "unset multiplot\n",
+        data, title, static_cast<double>(rows.size()) - 0.3, names, 1.0 - kAbove / height, kBelow / height,
+        to_string(m.clock));
+    return !draw_with_gnuplot({{picture, 1200, height_px, commands}}).empty();
 }
 
 }  // namespace eddy::effects

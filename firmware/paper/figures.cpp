@@ -8,11 +8,6 @@
 namespace eddy::paper {
 namespace {
 
-const char* const kStyle =
-    "set terminal pngcairo size 900,560 font 'sans,11' noenhanced\n"
-    "set border 3 lc rgb '#404040'\nset xtics nomirror\nset ytics nomirror\nset grid ytics lc rgb "
-    "'#d0d0d0'\n";
-
 // Renderer, clock, table.
 constexpr const char* kPage =
     R"(## The figures of the 2009 paper, from this program
@@ -46,14 +41,11 @@ std::string data(const std::vector<ForceCost>& costs, const char* separator) {
     return text;
 }
 
-bool draw(const std::filesystem::path& folder, const std::string& name, const std::string& title,
-          const std::vector<ForceCost>& costs, const std::string& commands) {
-    const std::filesystem::path script = folder / (name + ".gnuplot");
-    replace_text_file(
-        script, fmt::format("{}set output {}\n$costs << EOD\n{}EOD\nset title {} noenhanced\n{}", kStyle,
-                            in_gnuplot_quotes((folder / (name + ".png")).string()), data(costs, " "),
-                            in_gnuplot_quotes(title), commands));
-    return run_gnuplot(script, name);
+GnuplotPicture figure(const std::filesystem::path& file, const std::string& title,
+                      const std::vector<ForceCost>& costs, const std::string& commands) {
+    return {file, 900, 560,
+            fmt::format("set grid noxtics\n$costs << EOD\n{}EOD\nset title {}\n{}", data(costs, " "),
+                        in_gnuplot_quotes(title), commands)};
 }
 
 std::string table(const std::vector<Implementation>& ours) {
@@ -83,28 +75,28 @@ bool draw_figures(const std::filesystem::path& folder, const std::vector<ForceCo
                           data(costs, ","));
     const std::string cells = "set xlabel 'cells along each side'\n";
     const std::string ms = fmt::format("set ylabel '{} time [ms a step]'\n", to_string(clock));
-    bool all = draw(folder, "figure_8", "Updates a second, force added up on GPU and CPU: " + renderer, costs,
-                    cells +
-                        "set ylabel 'updates a second'\nset logscale y\nset key top right\n"
-                        "plot $costs using 1:(1000/$2) with linespoints lw 2 pt 7 lc rgb '#2050c0' "
-                        "title 'GPU', '' using 1:(1000/$6) with linespoints lw 2 pt 5 lc rgb '#e09020' "
-                        "title 'CPU'\n");
-    all &= draw(folder, "figure_9",
-                "A step by part; left bars: force added up on GPU, right: on CPU; " + renderer, costs,
-                cells + ms +
-                    "set key top left\nset style fill solid 0.85 noborder\nset boxwidth 0.35\n"
-                    "set xrange [-0.6:*]\nset yrange [0:*]\n"
-                    "plot $costs using ($0-0.19):($3+$4):xtic(1) with boxes lc rgb '#e09020' title 'force', "
-                    "'' using ($0-0.19):3 with boxes lc rgb '#2050c0' title 'fluid', "
-                    "'' using ($0+0.19):($7+$8) with boxes lc rgb '#e09020' notitle, "
-                    "'' using ($0+0.19):7 with boxes lc rgb '#2050c0' notitle\n");
-    all &= draw(folder, "figure_10", "Adding up the force alone: " + renderer, costs,
-                cells + ms +
-                    "set logscale y\nset key top left\n"
-                    "plot $costs using 1:5 with linespoints lw 2 pt 7 lc rgb '#2050c0' title 'GPU', "
-                    "'' using 1:9 with linespoints lw 2 pt 5 lc rgb '#e09020' title 'CPU'\n");
+    const std::vector<GnuplotPicture> figures{
+        figure(folder / "figure_8.png", "Updates a second, force added up on GPU and CPU: " + renderer, costs,
+               cells + "set ylabel 'updates a second'\nset logscale y\nset key top right\n"
+                       "plot $costs using 1:(1000/$2) with linespoints lw 2 pt 7 lc rgb '#2050c0' "
+                       "title 'GPU', '' using 1:(1000/$6) with linespoints lw 2 pt 5 lc rgb '#e09020' "
+                       "title 'CPU'\n"),
+        figure(folder / "figure_9.png",
+               "A step by part; left bars: force added up on GPU, right: on CPU; " + renderer, costs,
+               cells + ms +
+                   "set key top left\nset style fill solid 0.85 noborder\nset boxwidth 0.35\n"
+                   "set xrange [-0.6:*]\nset yrange [0:*]\n"
+                   "plot $costs using ($0-0.19):($3+$4):xtic(1) with boxes lc rgb '#e09020' title 'force', "
+                   "'' using ($0-0.19):3 with boxes lc rgb '#2050c0' title 'fluid', "
+                   "'' using ($0+0.19):($7+$8) with boxes lc rgb '#e09020' notitle, "
+                   "'' using ($0+0.19):7 with boxes lc rgb '#2050c0' notitle\n"),
+        figure(folder / "figure_10.png", "Adding up the force alone: " + renderer, costs,
+               cells + ms +
+                   "set logscale y\nset key top left\n"
+                   "plot $costs using 1:5 with linespoints lw 2 pt 7 lc rgb '#2050c0' title 'GPU', "
+                   "'' using 1:9 with linespoints lw 2 pt 5 lc rgb '#e09020' title 'CPU'\n")};
     replace_text_file(folder / "paper.md", fmt::format(kPage, renderer, to_string(clock), table(ours)));
-    return all;
+    return draw_with_gnuplot(figures).size() == figures.size();
 }
 
 }  // namespace eddy::paper

@@ -16,7 +16,7 @@ struct Implementation {
 const std::vector<Implementation>& published();
 
 /// Draws figures 8, 9 and 10 into `folder` as PNG, with the figures they show beside them as paper.csv, and the page that
-/// explains them, paper.md. False if a plot is missing.
+/// explains them, paper.md. False if a figure is missing.
 bool draw_figures(const std::filesystem::path& folder, const std::vector<ForceCost>& costs,
                   const std::vector<Implementation>& ours, const std::string& renderer, CostClock clock);
 

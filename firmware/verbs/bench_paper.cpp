@@ -58,7 +58,7 @@ int bench_paper(const BenchOptions& options) {
     for (const SolverPreset preset : {SolverPreset::Yang2009, SolverPreset::Fast, SolverPreset::Precise})
         ours.push_back(row_of(preset));
     const bool drawn = paper::draw_figures(options.paper, costs, ours, renderer, clock);
-    fmt::print("\nfigures, paper.csv and paper.md written to {}\n", options.paper);
+    fmt::print("\n{}paper.csv and paper.md written to {}\n", drawn ? "figures, " : "", options.paper);
     return drawn ? 0 : 1;
 }
 

@@ -22,15 +22,17 @@ void write(const sweep::Table& table, const fs::path& folder) {
     replace_text_file(folder / kJson, sweep::json_of(table));
 }
 
-/// Tables, report and pictures of a whole sweep.
-void conclude(const sweep::Table& table, const fs::path& folder) {
+/// Tables, report and pictures of a whole sweep. Returns the exit status: 1 if a picture is missing.
+int conclude(const sweep::Table& table, const fs::path& folder) {
     write(table, folder);
     const std::string report = sweep::report_of(table);
     replace_text_file(folder / "report.md", report);
+    const std::vector<GnuplotPicture> pictures = sweep::pictures_of(table, folder);
+    const std::vector<fs::path> drawn = draw_with_gnuplot(pictures);
     fmt::print("{}\nwritten to {}: accuracy.csv, accuracy.json, report.md", report, folder.string());
-    for (const fs::path& picture : sweep::plot(table, folder))
-        fmt::print(", {}", picture.filename().string());
+    for (const fs::path& picture : drawn) fmt::print(", {}", picture.filename().string());
     fmt::print("\n");
+    return drawn.size() == pictures.size() ? 0 : 1;
 }
 
 /// Dear points take longer: roughly the cells they compute, once for each iteration.
@@ -65,10 +67,7 @@ int sweep_accuracy(const AccuracyOptions& options) {
         done += work(points[i]);
     }
     progress.finish();
-    if (shard.of == 1) {
-        conclude(table, options.out);
-        return 0;
-    }
+    if (shard.of == 1) return conclude(table, options.out);
     write(table, options.out);
     fmt::print(
         "part {} of {}, {} of {} points: written to {}; when all parts are done, put them together with\n"
@@ -86,8 +85,7 @@ int merge_sweeps(const std::vector<std::string>& folders, const std::string& out
     }
     const sweep::Table all = sweep::merged(shards, folders);
     prepare_folder("--out", out);
-    conclude(all, out);
-    return 0;
+    return conclude(all, out);
 }
 
 }  // namespace eddy

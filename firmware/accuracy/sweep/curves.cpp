@@ -117,14 +117,6 @@ void add_other_steps(Plot& plot, const Chosen& some, const Value& error) {
     if (any) plot.explain(fmt::format("{} 'black'", kCross), "other time steps");
 }
 
-std::string start_of(const std::string& name, int width_px, int height_px) {
-    return fmt::format(
-        "set terminal pngcairo size {},{} font 'Sans,12'\nset output {}\nset grid lc rgb '#d0d0d0'\nset "
-        "border 3\n"
-        "set tics nomirror\nset termoption noenhanced\n",
-        width_px, height_px, in_gnuplot_quotes(name + ".png"));
-}
-
 const char* const kPercentAxis =
     "set logscale y\nset format y '%g %%'\nset ytics add (0.2, 0.5, 2, 5, 20, 50, 200, 500)\n";
 const char* const kTimeAxis =

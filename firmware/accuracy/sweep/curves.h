@@ -53,8 +53,6 @@ void add_curves_against_time(Plot& plot, const Chosen& some, const Value& error)
 /// Those with other steps than usual, which lie on no curve.
 void add_other_steps(Plot& plot, const Chosen& some, const Value& error);
 
-/// The head of a script that draws into name.png.
-std::string start_of(const std::string& name, int width_px, int height_px);
 extern const char* const kPercentAxis;
 extern const char* const kTimeAxis;
 /// Vertical lines at the time that a step may take at 20, 50 and 75 Hz.

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "firmware/accuracy/sweep/curves.h"
 #include "firmware/accuracy/sweep/pareto.h"
 #include "firmware/accuracy/sweep/problem.h"
-#include "firmware/gnuplot.h"
-#include "firmware/text_file.h"
 
 namespace eddy::accuracy::sweep {
 namespace {
@@ -22,15 +21,14 @@ double cells_of(const Measurement& m) {
     return m.point.setting.cells;
 }
 
-std::string work_precision(const Table& table, const Problem& problem) {
+GnuplotPicture work_precision(const Table& table, const Problem& problem) {
     const Chosen some = points_of(table, problem.name);
     Plot plot;
     add_front(plot, some, percent_of);
     add_curves_against_time(plot, some, percent_of);
     add_other_steps(plot, some, percent_of);
     explain_methods_and_grids(plot, some);
-    std::string text =
-        start_of("work_" + problem.name, 1100, 750) + kPercentAxis + kTimeAxis + real_time_lines();
+    std::string text = std::string(kPercentAxis) + kTimeAxis + real_time_lines();
     text += range("x", some, time_of, {1e3 / 75, 1e3 / 20}) +
             range("y", some, percent_of, {100.0 * problem.hand});
     text +=
@@ -41,10 +39,10 @@ std::string work_precision(const Table& table, const Problem& problem) {
         "set label 'below: a hand cannot tell' at graph 0.99, first {0:.3g} right offset 0,-0.7 tc rgb "
         "'#8040a0'\n",
         100.0 * problem.hand);
-    return text + plot.text();
+    return {"work_" + problem.name + ".png", 1100, 750, text + plot.text()};
 }
 
-std::string iterations_plot(const Table& table) {
+std::optional<GnuplotPicture> iterations_plot(const Table& table) {
     const Chosen some = points_of(table, "B2");
     const std::set<int> grids = grids_of(some);
     std::string panels;
@@ -75,21 +73,23 @@ std::string iterations_plot(const Table& table) {
                         label, sweeps ? "bottom left" : "top right",
                         sweeps ? "5, 10, 20, 40, 80, 160, 320" : "1, 2, 3, 4, 6, 8, 12", plot.text());
     }
-    if (panels.empty()) return "";
+    if (panels.empty()) return std::nullopt;
     // One scale for both panels.
     const std::string errors = range("y", some, percent_of);
-    return start_of("iterations", 1300, 700) + kPercentAxis + errors +
-           "set ylabel 'error of the force, worst of 4 places'\n"
-           "set multiplot layout 1,2 title 'B2: a ball speeds up. Error against iterations of the "
-           "pressure'\n" +
-           panels;
+    return GnuplotPicture{
+        "iterations.png", 1300, 700,
+        std::string(kPercentAxis) + errors +
+            "set ylabel 'error of the force, worst of 4 places'\n"
+            "set multiplot layout 1,2 title 'B2: a ball speeds up. Error against iterations of the "
+            "pressure'\n" +
+            panels};
 }
 
-std::string stages_plot(const Table& table) {
+std::optional<GnuplotPicture> stages_plot(const Table& table) {
     constexpr const char* kColours[] = {"#4c78a8", "#f58518", "#54a24b", "#e45756", "#72b7b2",
                                         "#b279a2", "#eeca3b", "#9d755d", "#79706e", "#bab0ac"};
     Chosen some = chosen(table.measured, [](const Measurement& m) { return !m.stages.empty(); });
-    if (some.empty()) return "";
+    if (some.empty()) return std::nullopt;
     std::vector<std::string> stages;
     for (const Measurement* m : some)
         for (const auto& stage : m->stages)
@@ -130,19 +130,17 @@ std::string stages_plot(const Table& table) {
             "ylabel\n",
             name);
     }
-    return start_of("stages", 1400, 650) +
-           "set style data histograms\nset style histogram rowstacked\nset style fill solid border -1\nset "
-           "boxwidth 0.7\n"
-           "set ylabel 'wall time of a step per million cells [ms]'\nset yrange [0:*]\nset offsets 0, 0, "
-           "graph 0.45, 0\n"
-           "set key top left reverse Left\n"
-           "set multiplot layout 1,3 title 'B2: where the time of a step goes (each panel has its own scale; "
-           "above a bar: "
-           "the sum of its stages)'\n" +
-           panels;
+    return GnuplotPicture{
+        "stages.png", 1400, 650,
+        "set style data histograms\nset style histogram rowstacked\nset style fill solid border -1\n"
+        "set boxwidth 0.7\nset ylabel 'wall time of a step per million cells [ms]'\nset yrange [0:*]\n"
+        "set offsets 0, 0, graph 0.45, 0\nset key top left reverse Left\n"
+        "set multiplot layout 1,3 title 'B2: where the time of a step goes (each panel has its own scale; "
+        "above a bar: the sum of its stages)'\n" +
+            panels};
 }
 
-std::string viscosity_plot(const Table& table) {
+std::optional<GnuplotPicture> viscosity_plot(const Table& table) {
     const Chosen some = points_of(table, "A1");
     std::map<std::pair<SolverPreset, double>, std::string> lines;
     for (const Measurement* m : some) {
@@ -158,18 +156,19 @@ std::string viscosity_plot(const Table& table) {
                  fmt::format("with linespoints lw 2 dt {} pt 7 ps 1.2 lc rgb '{}'", dash, colour_of(method)),
                  fmt::format("{}, Courant number {}", to_word(method), 0.5 * factor));
     }
-    if (plot.empty()) return "";
+    if (plot.empty()) return std::nullopt;
     std::string ticks;
     for (const int cells : grids_of(some)) ticks += fmt::format("{}{}", ticks.empty() ? "" : ", ", cells);
-    return start_of("viscosity", 1000, 700) + kPercentAxis + range("y", some, percent_of) +
-           range("x", some, cells_of) +
-           "set logscale x 2\nset xlabel 'cells along the longest side'\n"
-           "set ylabel 'numerical viscosity over the true one'\nset key outside right top reverse Left\n"
-           "set title 'A1: vortices of Taylor and Green at Re 10 die away too fast'\n" +
-           fmt::format("set xtics ({})\n", ticks) + plot.text();
+    return GnuplotPicture{
+        "viscosity.png", 1000, 700,
+        std::string(kPercentAxis) + range("y", some, percent_of) + range("x", some, cells_of) +
+            "set logscale x 2\nset xlabel 'cells along the longest side'\n"
+            "set ylabel 'numerical viscosity over the true one'\nset key outside right top reverse Left\n"
+            "set title 'A1: vortices of Taylor and Green at Re 10 die away too fast'\n" +
+            fmt::format("set xtics ({})\n", ticks) + plot.text()};
 }
 
-std::string ripple_plot(const Table& table) {
+GnuplotPicture ripple_plot(const Table& table) {
     const Chosen some = points_of(table, "B8.7");
     Plot plot;
     add_front(plot, some, share_of);
@@ -188,34 +187,29 @@ std::string ripple_plot(const Table& table) {
     plot.add(shorter, "using 1:2:3 with labels right offset -0.8,0 tc rgb '#404040'");
     plot.add(longer, "using 1:2:3 with labels left offset 0.8,-0.2 tc rgb '#404040'");
     explain_methods_and_grids(plot, some);
-    return start_of("ripple", 1100, 700) + kTimeAxis + real_time_lines() +
-           range("x", some, time_of, {1e3 / 75, 1e3 / 20}) + range("y", some, share_of) +
-           "set logscale y\nset ytics add (0.002, 0.003, 0.005, 0.02, 0.03, 0.05)\nset ylabel 'ripple of the "
-           "drag "
-           "coefficient, rms'\n"
-           "set key outside right top reverse Left\n"
-           "set title 'B8.7: a ball glides over the cells. How much its force trembles, against time'\n" +
-           plot.text();
+    return GnuplotPicture{
+        "ripple.png", 1100, 700,
+        std::string(kTimeAxis) + real_time_lines() + range("x", some, time_of, {1e3 / 75, 1e3 / 20}) +
+            range("y", some, share_of) +
+            "set logscale y\nset ytics add (0.002, 0.003, 0.005, 0.02, 0.03, 0.05)\n"
+            "set ylabel 'ripple of the drag coefficient, rms'\n"
+            "set key outside right top reverse Left\n"
+            "set title 'B8.7: a ball glides over the cells. How much its force trembles, against time'\n" +
+            plot.text()};
 }
 
 }  // namespace
 
-std::vector<std::filesystem::path> plot(const Table& table, const std::filesystem::path& folder) {
-    std::vector<std::pair<std::string, std::string>> scripts;
+std::vector<GnuplotPicture> pictures_of(const Table& table, const std::filesystem::path& folder) {
+    std::vector<GnuplotPicture> pictures;
     for (const Problem& problem : all_problems())
         if (problem.hand > 0.0 && !points_of(table, problem.name).empty())
-            scripts.emplace_back("work_" + problem.name, work_precision(table, problem));
-    scripts.emplace_back("iterations", iterations_plot(table));
-    scripts.emplace_back("stages", stages_plot(table));
-    scripts.emplace_back("viscosity", viscosity_plot(table));
-    if (!points_of(table, "B8.7").empty()) scripts.emplace_back("ripple", ripple_plot(table));
-    std::vector<std::filesystem::path> pictures;
-    for (const auto& [name, script] : scripts) {
-        if (script.empty()) continue;
-        const std::filesystem::path file = folder / (name + ".gnuplot"), picture = folder / (name + ".png");
-        replace_text_file(file, fmt::format("cd {}\n", in_gnuplot_quotes(folder.string())) + script);
-        if (run_gnuplot(file, picture.string())) pictures.push_back(picture);
-    }
+            pictures.push_back(work_precision(table, problem));
+    for (std::optional<GnuplotPicture> picture :
+         {iterations_plot(table), stages_plot(table), viscosity_plot(table)})
+        if (picture) pictures.push_back(*std::move(picture));
+    if (!points_of(table, "B8.7").empty()) pictures.push_back(ripple_plot(table));
+    for (GnuplotPicture& picture : pictures) picture.file = folder / picture.file;
     return pictures;
 }
 
