@@ -41,6 +41,17 @@ std::string data(const std::vector<ForceCost>& costs, const char* separator) {
     return text;
 }
 
+/// The columns of data(): where the sum was made, of what, by which clock.
+std::string header(CostClock clock) {
+    std::string text = "cells";
+    for (const char* sum : {"gpu", "cpu"}) {
+        text += fmt::format(",sum_on_{}_step_{}_ms", sum, to_string(CostClock::Wall));
+        for (const char* part : {"fluid", "force", "integral"})
+            text += fmt::format(",sum_on_{}_{}_{}_ms", sum, part, to_string(clock));
+    }
+    return text + "\n";
+}
+
 GnuplotPicture figure(const std::filesystem::path& file, const std::string& title,
                       const std::vector<ForceCost>& costs, const std::string& commands) {
     return {file, 900, 560,
@@ -69,10 +80,7 @@ const std::vector<Implementation>& published() {
 
 bool draw_figures(const std::filesystem::path& folder, const std::vector<ForceCost>& costs,
                   const std::vector<Implementation>& ours, const std::string& renderer, CostClock clock) {
-    replace_text_file(folder / "paper.csv",
-                      "cells,step_gpu_ms,fluid_gpu_ms,force_gpu_ms,integral_gpu_ms,step_cpu_ms,fluid_cpu_ms,"
-                      "force_cpu_ms,integral_cpu_ms\n" +
-                          data(costs, ","));
+    replace_text_file(folder / "paper.csv", header(clock) + data(costs, ","));
     const std::string cells = "set xlabel 'cells along each side'\n";
     const std::string ms = fmt::format("set ylabel '{} time [ms a step]'\n", to_string(clock));
     const std::vector<GnuplotPicture> figures{

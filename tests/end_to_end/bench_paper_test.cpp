@@ -17,6 +17,11 @@ TEST(BenchPaper, DrawsTheFiguresAndOurRowsBelowThePublishedOnes) {
         EXPECT_GT(std::filesystem::file_size(std::filesystem::path(out) / name), 1000u) << name;
     const std::vector<std::string> rows = lines_of(read_all(std::filesystem::path(out) / "paper.csv"));
     ASSERT_EQ(rows.size(), 3u);
+    // Where the sum is made, of what, and by which clock: the processor's where it draws, else the wall's.
+    EXPECT_THAT(rows[0],
+                testing::ContainsRegex("^cells,sum_on_gpu_step_wall_ms,sum_on_gpu_fluid_(cpu|wall)_ms,"));
+    EXPECT_THAT(rows[0],
+                testing::ContainsRegex(",sum_on_cpu_step_wall_ms,.*,sum_on_cpu_integral_(cpu|wall)_ms$"));
     EXPECT_THAT(rows[1], testing::StartsWith("8,"));
     EXPECT_EQ(split(rows[1], ',').size(), split(rows[0], ',').size());
     const std::string page = read_all(std::filesystem::path(out) / "paper.md");
