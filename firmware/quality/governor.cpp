@@ -109,7 +109,6 @@ std::size_t Governor::step_up() {
 void Governor::change_to(std::size_t rung) {
     rung_ = rung;
     changed_ = late_turned_ = time_;
-    smoothed_ = period_;
     late_ = cheapest_too_slow_ = false;
     room_.reset();
 }

@@ -214,6 +214,17 @@ TEST(Governor, WaitsTwoSecondsBetweenStepsDown) {
     EXPECT_LE(changes[1].at_s - changes[0].at_s, 2.1);
 }
 
+TEST(Governor, WaitsTwoSecondsAfterAStepUpWasTakenBackToo) {
+    World world{.surprise = [](double t, std::size_t) { return t < 40.0 ? 0.0 : 0.025; }};
+    world.load = load_between(5.0, 10.0, 1.8);
+    Machine machine(world);
+    machine.run_until(kMinute);
+    const auto& changes = machine.changes();
+    ASSERT_EQ(changes.size(), 4U);
+    EXPECT_EQ(changes[1].to, 3U);  // up; then down twice
+    EXPECT_GE(changes[3].at_s - changes[2].at_s, 2.0);
+}
+
 /// A second is lost once in `every_s`, `in_a_row` times.
 std::function<double(double, std::size_t)> stalls(double every_s, int in_a_row) {
     return [=, due = every_s, left = in_a_row](double t, std::size_t) mutable {
@@ -278,6 +289,18 @@ TEST(Governor, DoesNotBelieveALullOfFifteenSeconds) {
     machine.run_until(kHour);
     ASSERT_EQ(machine.changes().size(), 1U);
     EXPECT_EQ(machine.rung(), 2U);
+}
+
+TEST(Governor, GoesUpNoFurtherThanThereWasRoomAllTheTime) {
+    World world;
+    world.ladder = {.step_ms = {4.0, 6.0, 9.0}, .tuned_rung = 2, .period = Seconds(0.02)};
+    world.load = [](double t) { return t < 5.0 ? 4.0 : t < 20.0 ? 2.5 : 1.0; };
+    Machine machine(world);
+    machine.run_until(kMinute);
+    ASSERT_EQ(machine.changes().size(), 3U);
+    EXPECT_EQ(machine.changes()[0].to, 0U);
+    EXPECT_EQ(machine.changes()[1].to, 1U);
+    EXPECT_EQ(machine.changes()[2].to, 2U);
 }
 
 TEST(Governor, DoesNotTakeAJumpOfTheClockForALongLull) {
