@@ -8,7 +8,8 @@
 
 namespace eddy {
 
-/// Steps before timing starts: shaders are compiled, textures made, the pressure warm.
+/// Steps before timing starts: shaders are compiled, textures made, the pressure warm. (Of a first step of all, llvmpipe's own
+/// clock tells hours.)
 inline constexpr int kWarmUpSteps = 5;
 
 /// Times whole steps, one at a time, so that other work, or the steps of other scenes, may come between them.
