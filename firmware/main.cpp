@@ -108,6 +108,13 @@ struct CommandLine {
         choose(*verb->add_option("--haptics", run.haptics, "what the hand holds"), words_of(HapticsChoice{}));
         choose(*verb->add_option("--overlay", run.overlay, "what is written over the picture"),
                words_of(OverlayChoice{}));
+        choose(*verb->add_option("--presets", run.presets,
+                                 "what the grip's right and left buttons step through, as fast,yang2009")
+                    ->delimiter(',')
+                    ->take_all(),
+               words_of(SolverPreset{}));
+        verb->add_option("--preset-s", run.preset_s, "they also change by themselves after so long; 0: never")
+            ->check(number_from(0, 86400));
         verb->add_option("--motion", run.motion,
                          "recorded hand for the emulated Falcon: CSV t_s,x_m,y_m,z_m");
         verb->add_option("--motion-axes", run.motion_axes,

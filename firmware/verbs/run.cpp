@@ -94,9 +94,14 @@ std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoi
     return emulated::make_emulated_falcon(std::move(motion), settings);
 }
 
+const std::vector<SolverPreset>& presets_of(const RunOptions& options, const Exhibit& exhibit) {
+    return options.presets.empty() ? exhibit.presets : options.presets;
+}
+
 /// What the quality of the fluid hangs on. A run on the stepped clock is the same on every machine: it keeps the scene's own.
 QualityControl::Setup quality_setup(const RunOptions& options, const Exhibit& exhibit, const Scene& scene) {
-    QualityControl::Setup setup{exhibit.presets, Seconds(exhibit.preset_s), {}};
+    QualityControl::Setup setup{
+        presets_of(options, exhibit), Seconds(options.preset_s.value_or(exhibit.preset_s)), {}};
     const std::filesystem::path folder =
         options.state_dir.empty() ? exhibit.state_dir : std::filesystem::path(options.state_dir);
     // A flow that was written for one grid starts on that.
@@ -457,9 +462,9 @@ int run(const RunOptions& options) {
             "any)",
             scene.solver.dt_s));
     // Each preset must be able to do what the scene asks for.
-    for (const SolverPreset preset : exhibit.presets) {
+    for (const SolverPreset preset : presets_of(options, exhibit)) {
         std::vector<std::string> set = options.set;
-        set.push_back(fmt::format("solver.preset={}", to_word(preset)));
+        set.push_back(fmt::format("solver.preset=\"{}\"", to_word(preset)));
         load_scene(options.scene.empty() ? exhibit.scene : options.scene, set);
     }
     require_no_screen(options.display.value_or(exhibit.display));

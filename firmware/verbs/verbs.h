@@ -64,6 +64,8 @@ struct RunOptions {
     std::optional<DisplayChoice> display;
     std::optional<HapticsChoice> haptics;
     std::optional<OverlayChoice> overlay;
+    std::vector<SolverPreset> presets;  ///< empty: those of the exhibit
+    std::optional<double> preset_s;
     std::string motion;                  ///< CSV for the emulated hand; empty: a person-like motion
     std::string motion_axes = "x,z,-y";  ///< which way the recording's axes point
     std::uint64_t seed = 1;
