@@ -90,7 +90,7 @@ class Writer {
 
 std::string what_is_known_of(const std::optional<double>& force_error) {
     return force_error ? fmt::format("Force within about {}", percent(*force_error))
-                       : "Force error not measured here: eddy tune";
+                       : "Force error not measured yet";
 }
 
 void write_table(Writer& page, const CostFigures& f) {
@@ -106,7 +106,7 @@ void write_table(Writer& page, const CostFigures& f) {
     if (f.divergence_after_1_s > 0.0)
         divergence += fmt::format(" (÷ {})", rounded(f.divergence_before_1_s / f.divergence_after_1_s));
     page.row("max |∇·u|", f.divergence_before_1_s > 0.0 ? std::move(divergence) : "not known yet");
-    page.row("quality", fmt::format("{} steps down, {} up", f.quality_down, f.quality_up));
+    page.row("quality", fmt::format("{} × down, {} × up", f.quality_down, f.quality_up));
 }
 
 void write_bars(Writer& page, const CostFigures& f) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 
@@ -20,10 +21,11 @@ class RestWatch {
     /// `tank_m`: its longest side.
     explicit RestWatch(double tank_m) : still_m_s_(tank_m / kStillCrossing.count()) {}
 
-    /// Before each update: where the hand is, if anywhere.
-    void see(Instant now, const std::optional<glm::dvec3>& hand_m);
-    /// When it was measured: root mean square of the fluid's speed. Nothing known yet counts as moving.
-    void fluid_moves_at(double speed_m_s) { still_ = speed_m_s <= still_m_s_; }
+    /// Before each update: where the hand is, if anywhere, and its buttons.
+    void see(Instant now, const std::optional<glm::dvec3>& hand_m, std::uint8_t buttons);
+    /// When it was measured: the greatest of the fluid's (root mean square) and the bodies' speeds. Nothing known yet counts as
+    /// moving.
+    void all_moves_at(double speed_m_s) { still_ = speed_m_s <= still_m_s_; }
 
     bool nobody_here() const { return now_ - hand_moved_ >= kQuietFor; }
     bool may_rest() const { return nobody_here() && now_ - fluid_moved_ >= kQuietFor; }
@@ -32,6 +34,7 @@ class RestWatch {
     double still_m_s_;
     bool still_ = false;
     std::optional<glm::dvec3> at_;
+    std::uint8_t buttons_ = 0;
     Instant now_{0}, hand_moved_{0}, fluid_moved_{0};
 };
 

@@ -48,11 +48,14 @@ HapticOrders orders_for(const Scene& scene, const gles::FluidSetup& fluid) {
 }
 
 Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange)
+    : Show(gpu, scene, exchange, quality_of(scene)) {}
+
+Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange, const Quality& quality)
     : scene_(scene),
       exchange_(exchange),
       motions_(scene),
       gpu_(gpu),
-      quality_(quality_of(scene)),
+      quality_(quality),
       fluid_(&made(quality_)),
       states_(motions_.at(0.0, scene.solver.dt_s)) {}
 
@@ -123,6 +126,7 @@ void Show::rest(Instant now) {
     last_ = now;
     ++figures_.rested;
     if (answer_.sequence == 0) return;
+    ++answer_.sequence;  // a new answer, or the loop would take the fluid for dead
     answer_.computed_for = exchange_.pose.newest().time;
     exchange_.fluid.publish(answer_);
 }
@@ -134,6 +138,7 @@ void Show::reset() {
     computed_for_.clear();
     hand_known_ = false;
     ripple_.reset();
+    handover_ = {};
 }
 
 void Show::publish(bool wait) {

@@ -28,6 +28,8 @@ struct ShowFigures {
 class Show {
   public:
     Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange);
+    /// Begins with another quality than the scene's own.
+    Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange, const Quality& quality);
 
     /// Makes fluids of these qualities, takes a step with each, lets neighbours take over from each other, and goes back to the
     /// start: drivers compile a shader when it is first drawn with, which takes seconds on some and must not fall into the

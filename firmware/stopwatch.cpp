@@ -75,6 +75,11 @@ Stopwatch::Stopwatch(gles::Gpu& gpu) : gpu_(gpu) {
         if (!timings_.contains(name)) order_.push_back(name);
         Timings& t = timings_[name];
         if (sampled_.insert(name).second) {
+            if (kept_ > 0 && t.wall_ms.size() == 2 * kept_) {
+                const auto old = static_cast<std::ptrdiff_t>(kept_);
+                t.cpu_ms.erase(t.cpu_ms.begin(), t.cpu_ms.begin() + old);
+                t.wall_ms.erase(t.wall_ms.begin(), t.wall_ms.begin() + old);
+            }
             t.cpu_ms.push_back(0.0);
             t.wall_ms.push_back(0.0);
         }

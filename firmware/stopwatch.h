@@ -41,6 +41,8 @@ class Stopwatch {
 
     /// Turned on, it adds what each stage takes to one sample, however often it runs; turned on again, to the next.
     void set_on(bool on);
+    /// Of each stage, remembers only so many samples from now on, or up to twice as many.
+    void keep_last(std::size_t samples) { kept_ = samples; }
     /// Another fluid is timed from now on.
     void forget();
     /// Stages in the order they first ran.
@@ -56,6 +58,7 @@ class Stopwatch {
   private:
     gles::Gpu& gpu_;
     bool on_ = false;
+    std::size_t kept_ = 0;  ///< 0: all
     std::vector<std::string> order_;
     std::map<std::string, Timings> timings_;
     std::vector<Moment> begun_;

@@ -1,10 +1,13 @@
 #include "firmware/quality/force_handover.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace eddy {
 
 gles::Load ForceHandover::hand_on(const gles::Load& load, Seconds time) {
+    if (!std::isfinite(glm::length(load.force_n) + glm::length(load.torque_nm)))
+        return load;  // the gate's business
     if (settling_ > 1) {
         --settling_;
         return last_;

@@ -14,7 +14,8 @@ class ForceHandover {
 
     /// The next load is the first of another fluid.
     void begin() { settling_ = any_ ? kSettling + 1 : 0; }
-    /// Loads as the fluid gives them, with growing times, and as they are handed on.
+    /// Loads as the fluid gives them, with growing times, and as they are handed on. One that is not finite goes through and
+    /// leaves no trace.
     gles::Load hand_on(const gles::Load& load, Seconds time);
 
   private:

@@ -71,7 +71,36 @@ void QualityControl::step_took(double busy_ms) {
 }
 
 std::optional<std::string> QualityControl::work() {
-    if (governor_ || setup_.presets.size() > 1 || setup_.state_dir.empty()) return std::nullopt;
+    if (setup_.presets.size() > 1) {
+        measure_presets();
+        return std::nullopt;
+    }
+    if (governor_ || setup_.state_dir.empty() || gave_up_) return std::nullopt;
+    try {
+        return tune();
+    } catch (const std::exception& e) {  // of the driver, most likely: no memory for a larger grid
+        tuner_.reset();
+        gave_up_ = true;
+        trouble_ = e.what();
+        return "tuning was given up until the next start: " + trouble_;
+    }
+}
+
+void QualityControl::measure_presets() {
+    for (const Quality& quality : all()) {
+        if (errors_.contains(quality)) continue;
+        if (!measuring_)
+            measuring_ = std::make_unique<ForceError>(gpu_, scene_, quality, half_width_share(scene_));
+        measuring_->work();
+        if (measuring_->done()) {
+            errors_[quality] = measuring_->error();
+            measuring_.reset();
+        }
+        return;
+    }
+}
+
+std::optional<std::string> QualityControl::tune() {
     const bool begins = !tuner_;
     if (begins) tuner_ = std::make_unique<Tuner>(gpu_, scene_);
     if (begins) return fmt::format("tuning this machine while nobody is here, as {}", trouble_);
@@ -93,7 +122,8 @@ std::optional<std::string> QualityControl::work() {
 std::optional<double> QualityControl::force_error(const Quality& quality) const {
     for (const Rung& rung : ladder_)
         if (rung.quality == quality) return rung.force_error;
-    return std::nullopt;
+    const auto measured = errors_.find(quality);
+    return measured != errors_.end() ? std::optional(measured->second) : std::nullopt;
 }
 
 int QualityControl::steps_down() const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "firmware/quality/governor.h"
@@ -33,8 +34,8 @@ class QualityControl {
     /// Now and then: how long a step kept the machine busy.
     void step_took(double busy_ms);
 
-    /// A piece of what can wait for a moment without visitors: tuning the machine if it was not. Returns what there is to say
-    /// about it, in a line.
+    /// A piece of what can wait for a moment without visitors: tuning the machine if it was not, or measuring how exact each
+    /// preset is. Returns what there is to say about it, in a line.
     std::optional<std::string> work();
 
     /// Share of the force, if this quality was measured here.
@@ -47,6 +48,8 @@ class QualityControl {
   private:
     Quality in_preset(SolverPreset preset) const;
     void adopt(const Tuning& tuning);
+    std::optional<std::string> tune();
+    void measure_presets();
 
     gles::Gpu& gpu_;
     Scene scene_;
@@ -55,8 +58,11 @@ class QualityControl {
     std::vector<Rung> ladder_;
     std::optional<Governor> governor_;
     std::unique_ptr<Tuner> tuner_;
+    bool gave_up_ = false;            ///< tuning failed, and would again
     std::optional<Quality> adopted_;  ///< to be shown from the next update on
     std::string trouble_;             ///< why there is no tuning
+    std::unique_ptr<ForceError> measuring_;
+    std::map<Quality, double> errors_;  ///< of presets, as far as they were measured
 };
 
 }  // namespace eddy

@@ -7,14 +7,12 @@
 #include <ctime>
 #include <numbers>
 
-#include "firmware/accuracy/convergence.h"
 #include "firmware/fluid_setup.h"
 #include "firmware/input_error.h"
 #include "firmware/machine.h"
 #include "firmware/render_setup.h"
 #include "firmware/scene_grid.h"
 #include "firmware/stopwatch.h"
-#include "gles/body/bounds.h"
 #include "gles/render/renderer.h"
 
 namespace eddy {
@@ -26,11 +24,6 @@ constexpr int kPictures = 5;
 constexpr double kPictureHz = 30.0;
 /// Pictures may take this share of the time; the rest is the fluid's.
 constexpr double kMostForPictures = 0.4;
-
-/// Radius of the ball of case B2-box over the side of its tank.
-constexpr double kBallOfB2 = 0.1;
-/// The least grid that case is run on.
-constexpr int kLeastBox = 8;
 
 int iterations_of(SolverPreset preset, std::size_t series) {
     constexpr int kSweeps[] = {20, 40, 80};
@@ -46,24 +39,6 @@ bool divides(const Scene& scene, int cells) {
     }
 }
 
-/// Half the least width of the body in the hand, or of the first whose force is measured; that of the ball of B2 without any.
-double half_width_m(const Scene& scene, const gles::FluidSetup& fluid) {
-    const auto of = [&](const auto& wanted) -> std::optional<double> {
-        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-            if (!wanted(scene.bodies[i])) continue;
-            const gles::Extent e = gles::extent(fluid.bodies[i].shape, scene.bodies[i].orientation());
-            const glm::dvec3 width = e.high - e.low;
-            return 0.5 * std::min({width.x, width.y, width.z});
-        }
-        return std::nullopt;
-    };
-    const glm::dvec3& size = scene.tank.size_m;
-    if (const auto held = of([](const Scene::Body& body) { return body.motion == BodyMotion::Held; }))
-        return *held;
-    return of([](const Scene::Body& body) { return body.force; })
-        .value_or(kBallOfB2 * std::max({size.x, size.y, size.z}));
-}
-
 /// The hand goes to and fro once a second.
 void move_held(std::vector<gles::BodyState>& bodies, const BodySchedule& motions, const Scene& scene,
                double time_s) {
@@ -77,7 +52,8 @@ void move_held(std::vector<gles::BodyState>& bodies, const BodySchedule& motions
 
 }  // namespace
 
-Tuner::Tuner(gles::Gpu& gpu, const Scene& scene) : gpu_(gpu), scene_(scene) {
+Tuner::Tuner(gles::Gpu& gpu, const Scene& scene)
+    : gpu_(gpu), scene_(scene), half_width_share_(half_width_share(scene)) {
     tuning_.version = EDDY_VERSION;
     tuning_.renderer = gpu.capabilities().renderer;
     tuning_.machine = describe_machine();
@@ -90,7 +66,6 @@ Tuner::Tuner(gles::Gpu& gpu, const Scene& scene) : gpu_(gpu), scene_(scene) {
 
     const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, fluid_setup(scene));
     const std::vector<gles::BodyState> bodies = BodySchedule(scene).at(0.0, scene.solver.dt_s);
-    ball_share_ = half_width_m(scene, fluid->setup()) / (fluid->setup().cell_m * longest_side(scene));
     gles::Renderer renderer(gpu, fluid->setup(), render_setup(scene));
     std::vector<double> picture_ms;
     for (int i = 0; i <= kPictures; ++i) {
@@ -114,22 +89,9 @@ std::string Tuner::doing() const {
 
 void Tuner::work() {
     if (done()) return;
-    if (places_done_ < accuracy::SetOff::kPlaces) {
-        if (!ball_) {
-            Scene box = load_scene("validation/B2-box").scene;
-            const double dt_s = box.solver.dt_s;
-            box.solver = with_quality(scene_, candidate()).solver;
-            box.solver.dt_s = dt_s;
-            box.solver.time_order = 1;
-            ball_ = std::make_unique<accuracy::SetOff>(
-                gpu_, with_longest_side(std::move(box), candidate().cells), places_done_);
-        } else if (!ball_->done()) {
-            ball_->step();
-        } else {
-            error_ = accuracy::worse(error_, ball_->error());
-            ball_.reset();
-            ++places_done_;
-        }
+    if (!error_) error_.emplace(gpu_, scene_, candidate(), half_width_share_);
+    if (!error_->done()) {
+        error_->work();
     } else if (!fluid_) {
         const Scene scene = with_quality(scene_, candidate());
         motions_.emplace(scene);
@@ -153,13 +115,12 @@ void Tuner::time_a_step() {
 
 void Tuner::finish_candidate() {
     step_ms_.erase(step_ms_.begin(), step_ms_.begin() + kWarmUp);
-    const Rung rung{candidate(), median(step_ms_), percentile_95(step_ms_), error_};
+    const Rung rung{candidate(), median(step_ms_), percentile_95(step_ms_), error_->error()};
     tuning_.measured.push_back(rung);
     choose(tuning_);
     const double next =
         grid_ + 1 < grids_.size() ? static_cast<double>(grids_[grid_ + 1]) / grids_[grid_] : 1.0;
-    places_done_ = 0;
-    error_ = 0.0;
+    error_.reset();
     fluid_.reset();
     motions_.reset();
     step_ms_.clear();
@@ -173,6 +134,8 @@ void Tuner::go_on(bool too_slow) {
     if (!too_slow && grid_ < grids_.size()) return;
     grid_ = 0;
     ++series_;
+    if (done() && tuning_.ladder.empty())
+        throw std::runtime_error("tune: no setting gives a force that is a number");
     if (done()) tuning_.made_at = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
 

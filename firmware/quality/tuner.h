@@ -2,8 +2,8 @@
 #include <memory>
 #include <optional>
 
-#include "firmware/accuracy/set_off.h"
 #include "firmware/body_schedule.h"
+#include "firmware/quality/force_error.h"
 #include "firmware/quality/tuning.h"
 
 namespace eddy {
@@ -17,7 +17,7 @@ class Tuner {
     Tuner(gles::Gpu& gpu, const Scene& scene);
 
     bool done() const { return series_ == kSeries; }
-    /// A piece: one step, or one fluid made and its shaders compiled.
+    /// A piece: one step, or one fluid made and its shaders compiled. Throws if nothing at all can be used.
     void work();
     /// What it is at, "fast 48^3, 2 cycles"; empty when done.
     std::string doing() const;
@@ -38,16 +38,13 @@ class Tuner {
 
     gles::Gpu& gpu_;
     Scene scene_;
+    double half_width_share_;
     Tuning tuning_;
     std::vector<int> grids_;
-    double
-        ball_share_;  ///< half width of the body whose force matters most, over the longest side of the tank
     std::size_t series_ = 0, grid_ = 0;
 
     // --- of the candidate at hand
-    int places_done_ = 0;
-    std::unique_ptr<accuracy::SetOff> ball_;
-    double error_ = 0.0;
+    std::optional<ForceError> error_;
     std::unique_ptr<gles::Fluid> fluid_;
     std::optional<BodySchedule> motions_;
     std::vector<double> step_ms_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "firmware/accuracy/sweep/setting.h"
@@ -25,7 +26,8 @@ Rung rung_of(const Json& j) {
     Rung rung{{accuracy::sweep::method_named(j.at("preset")), j.at("cells"), j.at("iterations")},
               j.at("step_ms_p50"),
               j.at("step_ms_p95"),
-              j.at("force_error")};
+              std::numeric_limits<double>::quiet_NaN()};
+    if (const Json& error = j.at("force_error"); !error.is_null()) rung.force_error = error;
     if (rung.quality.cells < 1 || rung.quality.iterations < 1 || !(rung.step_ms > 0.0))
         throw std::invalid_argument("a rung that cannot be");
     return rung;
@@ -42,7 +44,8 @@ void choose(Tuning& tuning) {
     tuning.ladder.clear();
     tuning.chosen = 0;
     for (const Rung& rung : sorted)
-        if (tuning.ladder.empty() || rung.force_error < tuning.ladder.back().force_error)
+        if (tuning.ladder.empty() || (rung.force_error < tuning.ladder.back().force_error &&
+                                      rung.step_ms > tuning.ladder.back().step_ms))
             tuning.ladder.push_back(rung);
     for (std::size_t i = 0; i < tuning.ladder.size(); ++i)
         if (tuning.ladder[i].step_ms_p95 <= kTuningMargin * tuning.budget_ms) tuning.chosen = i;
@@ -65,6 +68,9 @@ Tuning tuning_from_json(const std::string& text, const std::filesystem::path& fi
                  j.at("scene"),        j.at("target_hz"), j.at("picture_ms"), j.at("budget_ms")};
         for (const Json& rung : j.at("measured")) t.measured.push_back(rung_of(rung));
         for (const Json& rung : j.at("ladder")) t.ladder.push_back(rung_of(rung));
+        for (std::size_t i = 1; i < t.ladder.size(); ++i)
+            if (!(t.ladder[i].step_ms > t.ladder[i - 1].step_ms))
+                throw std::invalid_argument("the ladder is not cheapest first");
         t.chosen = j.at("chosen");
         if (t.chosen >= t.ladder.size()) throw std::invalid_argument("chosen is not in the ladder");
         return t;

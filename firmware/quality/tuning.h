@@ -12,8 +12,8 @@ namespace eddy {
 struct Rung {
     Quality quality;
     double step_ms = 0.0, step_ms_p95 = 0.0;  ///< wall time of a step of the scene
-    double force_error =
-        0.0;  ///< share of the force on a ball of a tenth of the tank that speeds up (accuracy/set_off.h)
+    /// Share of the force on a ball, as many cells across as the body in the hand, that speeds up (force_error.h).
+    double force_error = 0.0;
     bool operator==(const Rung&) const = default;
 };
 

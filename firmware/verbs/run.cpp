@@ -36,6 +36,8 @@ using namespace std::chrono_literals;
 constexpr Seconds kLongestStep{0.1};
 constexpr Seconds kSlowWarmUp{2.0};  // worth a line
 constexpr Seconds kShortestStep{0.001};
+/// Of each stage's times; the page and the summary take their median.
+constexpr std::size_t kSamples = 200;
 /// While nothing moves the fluid is computed this often, to see whether that is still so.
 constexpr Instant kRestPeriod = 500ms;
 /// A latched force comes back by itself once its cause has been gone for this long; it is brought in gently.
@@ -94,6 +96,22 @@ std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoi
     return emulated::make_emulated_falcon(std::move(motion), settings);
 }
 
+/// Whether something will move though nothing does now, or moves that the fluid as a whole hardly shows: such a show never rests.
+bool moves_by_itself(const Scene& scene) {
+    const auto is_driven = [](const Scene::Body& body) { return body.motion == BodyMotion::Prescribed; };
+    const auto blows = [](const Scene::Source& source) {
+        return source.velocity_m_s || source.start_s > 0.0;
+    };
+    const auto through = [](const Scene::Wall* wall) {
+        return wall->kind == WallKind::Inflow || wall->velocity_m_s;
+    };
+    const auto walls = scene.tank.walls.all();
+    return scene.imposed || scene.forcing ||
+           std::any_of(scene.bodies.begin(), scene.bodies.end(), is_driven) ||
+           std::any_of(scene.sources.begin(), scene.sources.end(), blows) ||
+           std::any_of(walls.begin(), walls.end(), through);
+}
+
 const std::vector<SolverPreset>& presets_of(const RunOptions& options, const Exhibit& exhibit) {
     return options.presets.empty() ? exhibit.presets : options.presets;
 }
@@ -123,12 +141,14 @@ class Run {
           device_name_(device_ ? "Novint Falcon, emulated" : "none"),
           graphics_(std::move(graphics)),
           quality_(graphics_->gpu, scene, quality_setup(options, exhibit, scene)),
-          show_(graphics_->gpu, with_quality(scene, quality_.first()), exchange_),
+          show_(graphics_->gpu, scene, exchange_, quality_.first()),
           stopwatch_(graphics_->gpu),
           watch_(std::max({scene.tank.size_m.x, scene.tank.size_m.y, scene.tank.size_m.z})),
+          moves_by_itself_(moves_by_itself(scene)),
           trace_(20000),
           shows_cost_(options.overlay.value_or(exhibit.overlay) == OverlayChoice::Cost) {
         if (!options.record.empty()) recorder_.emplace(options.record);
+        stopwatch_.keep_last(kSamples);
         HapticLoopSettings settings;
         settings.gate.max_force_n = std::min(scene.haptics.max_force_n, exhibit.max_force_n);
         if (device_) loop_.emplace(*device_, exchange_, trace_, settings);
@@ -186,6 +206,7 @@ class Run {
     Stopwatch stopwatch_;
     StepRate step_rate_;
     RestWatch watch_;
+    bool moves_by_itself_;
     Instant rest_ends_{0};
     TickTrace trace_;
     std::vector<TickRecord> ticks_{4096};
@@ -240,8 +261,12 @@ CostFigures Run::cost() const {
 
 void Run::go_on(Instant now, Seconds interval) {
     const PoseSnapshot pose = exchange_.pose.newest();
-    watch_.see(now, pose.known ? std::optional(pose.position_m) : std::nullopt);
-    if (const auto speed = show_.figures().fluid_speed_m_s) watch_.fluid_moves_at(*speed);
+    watch_.see(now, pose.known ? std::optional(pose.position_m) : std::nullopt, pose.buttons);
+    if (auto speed_m_s = show_.figures().fluid_speed_m_s; speed_m_s && !moves_by_itself_) {
+        for (const gles::BodyState& body : show_.bodies())
+            speed_m_s = std::max(*speed_m_s, glm::length(body.velocity_m_s));
+        watch_.all_moves_at(*speed_m_s);
+    }
     if (watch_.nobody_here()) use_the_quiet();
     if (watch_.may_rest() && now < rest_ends_) {
         show_.rest(now);
@@ -255,15 +280,18 @@ void Run::go_on(Instant now, Seconds interval) {
 void Run::fluid_update(Instant now, Seconds dt) {
     const bool measure = show_.figures().steps % kMeasureEvery == kMeasureEvery / 2 || watch_.may_rest();
     stopwatch_.set_on(measure);
-    const double start_ms = measure ? Stopwatch::now().wall_ms : 0.0;
+    // Not the same step: to look into one takes time.
+    const bool time = show_.figures().steps % kMeasureEvery == 0;
+    const double start_ms = time ? Stopwatch::now().wall_ms : 0.0;
     show_.update(now, dt, measure);
-    if (measure) quality_.step_took(Stopwatch::now().wall_ms - start_ms);
+    if (time && !measure) quality_.step_took(Stopwatch::now().wall_ms - start_ms);
     step_rate_.add_step();
     stopwatch_.set_on(false);
 }
 
 void Run::change_quality(const QualityControl::Change& change) {
     show_.set_quality(change.quality);
+    give_orders();
     stopwatch_.forget();
     fmt::print(stderr, "run: {} from now on: {}\n", describe(change.quality), change.reason);
 }
@@ -421,8 +449,9 @@ void Run::summarise() const {
                                 median(stopwatch_.of(stage).wall_ms));
         return text;
     };
-    fmt::print("scene       {} ({}x{}x{} cells of {:.2f} mm)\n", scene_.title, scene_.tank.cells.x,
-               scene_.tank.cells.y, scene_.tank.cells.z, scene_.tank.cell_m() * 1e3);
+    const gles::FluidSetup& fluid = show_.fluid().setup();
+    fmt::print("scene       {} ({}x{}x{} cells of {:.2f} mm)\n", scene_.title, fluid.cells.x, fluid.cells.y,
+               fluid.cells.z, fluid.cell_m * 1e3);
     fmt::print("renderer    {}, {}\n", graphics_->gpu.capabilities().renderer,
                graphics_->display->describe());
     fmt::print("hand        {}\n", device_name_);
@@ -461,6 +490,8 @@ int run(const RunOptions& options) {
             "solver.dt_s = {}: run keeps time in ticks of 1 ms; use at least 0.001 (simulate takes "
             "any)",
             scene.solver.dt_s));
+    if (presets_of(options, exhibit).size() == 1)
+        throw InputError("presets: one alone leaves nothing to choose; name more, or set solver.preset");
     // Each preset must be able to do what the scene asks for.
     for (const SolverPreset preset : presets_of(options, exhibit)) {
         std::vector<std::string> set = options.set;

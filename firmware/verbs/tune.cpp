@@ -16,9 +16,9 @@ void print(const Tuning& t) {
     fmt::print(
         "At {:.3g} steps a second a period is {:.3g} ms. A picture takes {:.3g} ms; {:.3g} ms are left for a "
         "step, and "
-        "95 of\n100 steps must keep to {:.0f} % of that. Error: of the force on a ball of a tenth of the "
-        "tank that "
-        "speeds up.\n\n",
+        "95 of\n100 steps must keep to {:.0f} % of that. Error: of the force on a ball, as many cells across "
+        "as the body "
+        "in the\nhand, that speeds up.\n\n",
         t.target_hz, 1e3 / t.target_hz, t.picture_ms, t.budget_ms, 100.0 * kTuningMargin);
     fmt::print("  {:<26}{:>12}{:>12}{:>10}\n", "", "ms a step", "ms, p95", "error");
     for (std::size_t i = 0; i < t.ladder.size(); ++i) {

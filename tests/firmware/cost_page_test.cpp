@@ -45,13 +45,13 @@ TEST(CostPage, SaysWhatIsMeasured) {
     const std::vector<std::string> words = words_of(f);
     for (const char* said : {"Force within about 1 %", "0.4 % of it, 0.013 N", "48 × 40 × 32 cells",
                              "fast, 2 cycles a step", "48 of 50 steps a second", "12 → 0.030 1/s (÷ 400)",
-                             "2 steps down, 0 up", "20 ms a step", "pressure", "13.0", "2.5"})
+                             "2 × down, 0 × up", "20 ms a step", "pressure", "13.0", "2.5"})
         EXPECT_THAT(words, Contains(said));
 }
 
 TEST(CostPage, SaysWhatIsNotKnown) {
     const std::vector<std::string> words = words_of(some_figures());
-    EXPECT_THAT(words, Contains("Force error not measured here: eddy tune"));
+    EXPECT_THAT(words, Contains("Force error not measured yet"));
     EXPECT_THAT(words, Contains("not known yet"));
     EXPECT_THAT(words_of(CostFigures{}), Contains("Time of a step not known yet"));
     EXPECT_THAT(words, Not(Contains(HasSubstr("within"))));

@@ -13,8 +13,8 @@ const glm::dvec3 kPlace(0.08, 0.08, 0.08);
 /// Nothing moves from 0 to `end`, looked at every 20 ms.
 RestWatch quiet(Instant end, double speed = kSlow, std::optional<glm::dvec3> hand = kPlace) {
     RestWatch watch(kTank);
-    watch.fluid_moves_at(speed);
-    for (Instant t = 0s; t <= end; t += 20ms) watch.see(t, hand);
+    watch.all_moves_at(speed);
+    for (Instant t = 0s; t <= end; t += 20ms) watch.see(t, hand, 0);
     return watch;
 }
 
@@ -26,28 +26,34 @@ TEST(RestWatch, RestsWhenNothingHasMovedForAWhile) {
 
 TEST(RestWatch, HandThatMovesWakesAtOnce) {
     RestWatch watch = quiet(20s);
-    watch.see(20020ms, kPlace + glm::dvec3(0.001, 0.0, 0.0));
+    watch.see(20020ms, kPlace + glm::dvec3(0.001, 0.0, 0.0), 0);
     EXPECT_FALSE(watch.may_rest());
     EXPECT_FALSE(watch.nobody_here());
 }
 
 TEST(RestWatch, HandThatComesOrGoesWakesAtOnce) {
     RestWatch watch = quiet(20s);
-    watch.see(20020ms, std::nullopt);
+    watch.see(20020ms, std::nullopt, 0);
     EXPECT_FALSE(watch.may_rest());
     watch = quiet(20s, kSlow, std::nullopt);
-    watch.see(20020ms, kPlace);
+    watch.see(20020ms, kPlace, 0);
+    EXPECT_FALSE(watch.may_rest());
+}
+
+TEST(RestWatch, ButtonWakesAtOnce) {
+    RestWatch watch = quiet(20s);
+    watch.see(20020ms, kPlace, 8);
     EXPECT_FALSE(watch.may_rest());
 }
 
 TEST(RestWatch, TrembleOfAnEncoderWakesNobodyButADriftDoes) {
     RestWatch watch = quiet(20s);
     for (int n = 0; n < 100; ++n)
-        watch.see(20s + n * 20ms, kPlace + glm::dvec3(n % 2 ? 2e-4 : 0.0, 0.0, 0.0));
+        watch.see(20s + n * 20ms, kPlace + glm::dvec3(n % 2 ? 2e-4 : 0.0, 0.0, 0.0), 0);
     EXPECT_TRUE(watch.may_rest());
     bool woke = false;
     for (int n = 0; n < 100; ++n) {
-        watch.see(22s + n * 20ms, kPlace + glm::dvec3(1e-5 * n, 0.0, 0.0));
+        watch.see(22s + n * 20ms, kPlace + glm::dvec3(1e-5 * n, 0.0, 0.0), 0);
         woke |= !watch.may_rest();
     }
     EXPECT_TRUE(woke);
@@ -57,16 +63,16 @@ TEST(RestWatch, FluidThatMovesIsNotLeftAlone) {
     EXPECT_FALSE(quiet(60s, kQuick).may_rest());
     EXPECT_TRUE(quiet(60s, kQuick).nobody_here());
     RestWatch watch = quiet(60s, kQuick);
-    watch.fluid_moves_at(kSlow);
-    watch.see(60020ms, kPlace);
+    watch.all_moves_at(kSlow);
+    watch.see(60020ms, kPlace, 0);
     EXPECT_FALSE(watch.may_rest());
-    watch.see(65100ms, kPlace);
+    watch.see(65100ms, kPlace, 0);
     EXPECT_TRUE(watch.may_rest());
 }
 
 TEST(RestWatch, FluidOfWhichNothingIsKnownCountsAsMoving) {
     RestWatch watch(kTank);
-    for (Instant t = 0s; t <= 60s; t += 20ms) watch.see(t, kPlace);
+    for (Instant t = 0s; t <= 60s; t += 20ms) watch.see(t, kPlace, 0);
     EXPECT_FALSE(watch.may_rest());
 }
 

@@ -1,6 +1,7 @@
 #include "firmware/show.h"
 
 #include "firmware/fluid_setup.h"
+#include "firmware/haptic/law.h"
 
 #include <algorithm>
 #include <cmath>
@@ -237,6 +238,47 @@ TEST_F(ShowTest, WhileItRestsTheLastForceStaysTheAnswer) {
     hand_at({0.102, 0.08, 0.08}, 280ms);
     show.update(280ms, kDt, false);
     EXPECT_GT(glm::length(show.bodies().at(0).velocity_m_s), 0.0);
+}
+
+TEST_F(ShowTest, RestKeepsTheFluidAliveForTheHapticLoop) {
+    Show show(gpu, scene_with(""), exchange);
+    stir(show, exchange, 12, [](int) {});
+    LawState state;
+    for (int n = 0; n < 2000; ++n) {  // two seconds
+        const Instant now = 240ms + n * 1ms;
+        if (n % 20 == 0) show.rest(now);
+        HapticInput in;
+        in.now = now;
+        in.fluid = exchange.fluid.newest();
+        in.orders.enabled = true;
+        in.device = HapticState::Ready;
+        in.reading = HandleReading{glm::dvec3(0.0), 0, now};
+        EXPECT_NE(law(state, in, 1ms).reason, GateReason::FluidStale) << n << " ms";
+    }
+}
+
+TEST_F(ShowTest, AfterAResetNoForceOfBeforeLingers) {
+    Show show(gpu, scene_with(""), exchange);
+    stir(show, exchange, 12, [](int) {});
+    show.set_quality(with_preset(show.quality(), SolverPreset::Precise));
+    show.reset();
+    for (int n = 1; n <= 3; ++n) {  // at rest from the start
+        hand_at({0.08, 0.08, 0.08}, 1s + n * 20ms);
+        show.update(1s + n * 20ms, kDt, false);
+        show.publish(true);
+        EXPECT_LT(glm::length(exchange.fluid.newest().force_n), 1e-9);
+    }
+}
+
+TEST_F(ShowTest, ScenesOwnPresetIsTheSceneAsItIsWritten) {
+    const Scene scene =
+        scene_with("[solver]\npreset = \"fast\"\nadvection = \"maccormack\"\ntime_order = 2\n");
+    const Quality own = quality_of(scene);
+    Show show(gpu, scene, exchange, with_preset(own, SolverPreset::Precise));
+    EXPECT_EQ(show.quality().preset, SolverPreset::Precise);
+    show.set_quality(own);
+    EXPECT_EQ(show.fluid().setup().solver.time_order, 2);
+    EXPECT_EQ(show.fluid().setup().solver.advection, gles::Advection::MacCormack);
 }
 
 TEST_F(ShowTest, FiguresRangeOverTheForceAfterGain) {

@@ -55,6 +55,18 @@ TEST(ForceHandover, MayBeginAgainBeforeItHasEnded) {
         EXPECT_DOUBLE_EQ(handover.hand_on(load(-7.0), Seconds(0.02 * n)).force_n.x, before);
 }
 
+TEST(ForceHandover, ForceThatIsNoNumberGoesThroughAndLeavesNoTrace) {
+    const double none = std::nan("");
+    for (int when = 0; when < 8; ++when) {
+        ForceHandover handover;
+        for (int n = 0; n < 40; ++n) {
+            if (n == 4) handover.begin();
+            const double force = handover.hand_on(load(n == when ? none : 1.0), Seconds(0.02 * n)).force_n.x;
+            EXPECT_EQ(std::isnan(force), n == when) << "step " << n << ", none at " << when;
+        }
+    }
+}
+
 TEST(ForceHandover, FirstForceOfAllIsNotFadedIn) {
     ForceHandover handover;
     handover.begin();

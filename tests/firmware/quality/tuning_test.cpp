@@ -59,13 +59,23 @@ TEST(Tuning, ReadsBackWhatItWrote) {
     EXPECT_EQ(tuning_from_json(to_json(t), "a file"), t);
 }
 
+TEST(Tuning, ReadsBackAnErrorThatIsNoNumber) {
+    const Tuning t = tuning({rung(24, 1, 5, 6, .06), rung(32, 2, 14, 15, std::nan(""))}, 20.0);
+    const Tuning back = tuning_from_json(to_json(t), "a file");
+    EXPECT_TRUE(std::isnan(back.measured.at(1).force_error));
+    EXPECT_EQ(back.ladder, t.ladder);
+}
+
 TEST(Tuning, ForeignFileIsNamed) {
     const std::string good = to_json(tuning({rung(24, 1, 5, 6, .06)}, 20.0));
     std::string wrong = good;
     wrong.replace(wrong.find("\"fast\""), 6, "\"fest\"");
     std::string beyond = good;
     beyond.replace(beyond.find("\"chosen\": 0"), 11, "\"chosen\": 7");
-    for (const std::string& foreign : {std::string(), std::string("{}"), std::string("[1]"), wrong, beyond}) {
+    Tuning shuffled = tuning({rung(24, 1, 5, 6, .06), rung(32, 2, 14, 15, .03)}, 20.0);
+    std::swap(shuffled.ladder[0], shuffled.ladder[1]);
+    for (const std::string& foreign :
+         {std::string(), std::string("{}"), std::string("[1]"), wrong, beyond, to_json(shuffled)}) {
         try {
             tuning_from_json(foreign, "state/tuning.json");
             FAIL() << foreign;
