@@ -11,7 +11,7 @@
 namespace eddy::gles {
 namespace {
 
-/// Programs that no pass uses any more are kept up to this number: some ten kilobytes each.
+/// Programs that no pass uses any more are kept up to this number: those of about six scenes.
 constexpr std::ptrdiff_t kIdlePrograms = 400;
 
 unsigned compile(GLenum kind, std::string_view path, const std::string& switches,

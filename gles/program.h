@@ -41,7 +41,7 @@ class Program {
     std::vector<Uniform> uniforms_;
 };
 
-/// Compiling takes a driver 10 to 300 ms a program. What has been compiled is kept, so that a second fluid of the same kind
+/// Compiling takes a driver long. What has been compiled is kept, so that a second fluid of the same kind
 /// (another preset, the next run of a study) has it at once.
 class ProgramCache {
   public:

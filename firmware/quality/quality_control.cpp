@@ -71,22 +71,20 @@ void QualityControl::step_took(double busy_ms) {
 }
 
 std::optional<std::string> QualityControl::work() {
-    if (setup_.presets.size() > 1) {
-        measure_presets();
-        return std::nullopt;
-    }
-    if (governor_ || setup_.state_dir.empty() || gave_up_) return std::nullopt;
+    if (gave_up_) return std::nullopt;
     try {
-        return tune();
+        if (setup_.presets.size() > 1) return measure_presets();
+        return governor_ || setup_.state_dir.empty() ? std::nullopt : tune();
     } catch (const std::exception& e) {  // of the driver, most likely: no memory for a larger grid
         tuner_.reset();
+        measuring_.reset();
         gave_up_ = true;
         trouble_ = e.what();
-        return "tuning was given up until the next start: " + trouble_;
+        return "measuring was given up until the next start: " + trouble_;
     }
 }
 
-void QualityControl::measure_presets() {
+std::optional<std::string> QualityControl::measure_presets() {
     for (const Quality& quality : all()) {
         if (errors_.contains(quality)) continue;
         if (!measuring_)
@@ -96,8 +94,9 @@ void QualityControl::measure_presets() {
             errors_[quality] = measuring_->error();
             measuring_.reset();
         }
-        return;
+        break;
     }
+    return std::nullopt;
 }
 
 std::optional<std::string> QualityControl::tune() {

@@ -49,7 +49,7 @@ class QualityControl {
     Quality in_preset(SolverPreset preset) const;
     void adopt(const Tuning& tuning);
     std::optional<std::string> tune();
-    void measure_presets();
+    std::optional<std::string> measure_presets();
 
     gles::Gpu& gpu_;
     Scene scene_;
@@ -58,7 +58,7 @@ class QualityControl {
     std::vector<Rung> ladder_;
     std::optional<Governor> governor_;
     std::unique_ptr<Tuner> tuner_;
-    bool gave_up_ = false;            ///< tuning failed, and would again
+    bool gave_up_ = false;            ///< tuning or measuring failed, and would again
     std::optional<Quality> adopted_;  ///< to be shown from the next update on
     std::string trouble_;             ///< why there is no tuning
     std::unique_ptr<ForceError> measuring_;
