@@ -12,7 +12,23 @@ uniform float lambda;  // nu dt / h^2
 
 out vec4 result;
 
+#ifdef THROUGH
+// 1, but 0 beside an opening. There it would hold the pressure away from its 0 outside, and both would grow, 1.3 to 1.8 times a step
+// at lambda from 10 to 500.
+vec4 no_opening(ivec3 c) {
+    vec4 z = vec4(4 * c.z) + vec4(0.0, 1.0, 2.0, 3.0);
+    vec3 low = min(OPEN_LOW, 1.0), high = min(OPEN_HIGH, 1.0);
+    float x_and_y = float(c.x == 0) * low.x + float(c.x + 1 == CELLS.x) * high.x + float(c.y == 0) * low.y + float(c.y + 1 == CELLS.y) * high.y;
+    vec4 openings = x_and_y + vec4(equal(z, vec4(0.0))) * low.z + vec4(equal(z, vec4(CELLS.z - 1))) * high.z;
+    return vec4(lessThan(openings, vec4(0.5)));
+}
+#endif
+
 void main() {
     ivec3 c = cell_here(TARGET);
-    result = scale * at(phi, TARGET, c) + at(increment, TARGET, c) - lambda * at(b, TARGET, c);
+    vec4 taken_back = lambda * at(b, TARGET, c);
+#ifdef THROUGH
+    taken_back *= no_opening(c);
+#endif
+    result = scale * at(phi, TARGET, c) + at(increment, TARGET, c) - taken_back;
 }

@@ -44,8 +44,10 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
       results_(gpu, setup_) {
     if (is_viscous()) {
         viscosity_.emplace(gpu, setup_, walls_);
+        Variant variant{.defines = {{"CELLS", glsl(setup_.cells)}}};
+        walls_.declare(variant);
         add_pressure_.emplace(gpu, "add pressure", "gles/fluid/add_pressure.frag",
-                              Cells4::layout(setup_.cells));
+                              Cells4::layout(setup_.cells), variant);
     }
     if (setup_.solver.time_order == 2) reflection_.emplace(gpu, setup_);
     if (Coupling::needed(setup_)) coupling_.emplace(gpu, setup_, pressure_, body_uniforms_);
