@@ -6,6 +6,7 @@
 
 #include "firmware/input_error.h"
 #include "firmware/npy.h"
+#include "firmware/quality/quality.h"
 #include "gles/body/distance_grid.h"
 #include "gles/body/mesh_file.h"
 
@@ -19,18 +20,17 @@ gles::SolverSetup solver_setup(const Scene::Solver& solver) {
     gles::SolverSetup s;
     switch (solver.preset) {
         case SolverPreset::Fast:
-            s.cycles = 2;
             s.viscous_cycles = 1;
             break;
         case SolverPreset::Precise:
             s.advection = gles::Advection::MacCormack;
-            s.cycles = 3;
             s.viscous_cycles = 2;
             break;
         case SolverPreset::Yang2009:
             s.method = gles::Method::Yang2009;
             break;
     }
+    (solver.preset == SolverPreset::Yang2009 ? s.jacobi_sweeps : s.cycles) = usual_iterations(solver.preset);
     if (solver.advection)
         s.advection = *solver.advection == AdvectionScheme::MacCormack ? gles::Advection::MacCormack
                                                                        : gles::Advection::SemiLagrangian;

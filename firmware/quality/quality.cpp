@@ -1,11 +1,29 @@
 #include "firmware/quality/quality.h"
 
-#include "firmware/accuracy/sweep/setting.h"
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "firmware/scene_grid.h"
 
 namespace eddy {
 
-using accuracy::sweep::usual_iterations;
+int usual_iterations(SolverPreset preset) {
+    switch (preset) {
+        case SolverPreset::Fast:
+            return 2;
+        case SolverPreset::Precise:
+            return 3;
+        case SolverPreset::Yang2009:
+            return 40;
+    }
+    throw std::logic_error("a preset without iterations");
+}
+
+SolverPreset preset_named(const std::string& name) {
+    if (const auto preset = from_word<SolverPreset>(name)) return *preset;
+    throw std::invalid_argument(fmt::format("there is no preset named '{}'", name));
+}
 
 Quality quality_of(const Scene& scene) {
     const Scene::Solver& solver = scene.solver;
@@ -36,7 +54,9 @@ Quality with_preset(Quality quality, SolverPreset preset) {
 }
 
 std::string describe(const Quality& quality) {
-    return describe(accuracy::sweep::Setting{quality.preset, quality.cells, quality.iterations});
+    const char* what = quality.preset == SolverPreset::Yang2009 ? "sweep" : "cycle";
+    return fmt::format("{} {}^3, {} {}{}", to_word(quality.preset), quality.cells, quality.iterations, what,
+                       quality.iterations == 1 ? "" : "s");
 }
 
 }  // namespace eddy

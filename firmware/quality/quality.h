@@ -14,6 +14,11 @@ struct Quality {
     auto operator<=>(const Quality&) const = default;
 };
 
+/// How often a preset iterates if the scene does not say.
+int usual_iterations(SolverPreset preset);
+/// Throws std::invalid_argument if no preset has this name.
+SolverPreset preset_named(const std::string& name);
+
 /// That of the scene as it is written.
 Quality quality_of(const Scene& scene);
 /// The scene computed so. Throws InputError if its tank cannot be divided into that many cells.

@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "firmware/accuracy/sweep/setting.h"
 #include "firmware/input_error.h"
 #include "firmware/text_file.h"
 
@@ -23,7 +22,7 @@ Json json_of(const Rung& rung) {
 }
 
 Rung rung_of(const Json& j) {
-    Rung rung{{accuracy::sweep::method_named(j.at("preset")), j.at("cells"), j.at("iterations")},
+    Rung rung{{preset_named(j.at("preset")), j.at("cells"), j.at("iterations")},
               j.at("step_ms_p50"),
               j.at("step_ms_p95"),
               std::numeric_limits<double>::quiet_NaN()};

@@ -14,18 +14,6 @@ constexpr std::pair<ForceWay, const char*> kForceWays[] = {
 
 }  // namespace
 
-int usual_iterations(SolverPreset method) {
-    switch (method) {
-        case SolverPreset::Fast:
-            return 2;
-        case SolverPreset::Precise:
-            return 3;
-        case SolverPreset::Yang2009:
-            return 40;
-    }
-    throw std::logic_error("a method without iterations");
-}
-
 std::string word_of(ForceWay way) {
     for (const auto& [one, word] : kForceWays)
         if (one == way) return word;
@@ -38,16 +26,8 @@ ForceWay force_way(const std::string& word) {
     throw std::invalid_argument(fmt::format("there is no way to measure a force named '{}'", word));
 }
 
-SolverPreset method_named(const std::string& word) {
-    for (const SolverPreset method : kMethods)
-        if (to_word(method) == word) return method;
-    throw std::invalid_argument(fmt::format("there is no method named '{}'", word));
-}
-
 std::string describe(const Setting& s) {
-    const char* what = s.method == SolverPreset::Yang2009 ? "sweep" : "cycle";
-    std::string text = fmt::format("{} {}^3, {} {}{}", to_word(s.method), s.cells, s.iterations, what,
-                                   s.iterations == 1 ? "" : "s");
+    std::string text = describe(Quality{s.method, s.cells, s.iterations});
     if (s.dt_factor != 1.0) text += fmt::format(", {} dt", s.dt_factor);
     if (s.force != ForceWay::Surface) text += ", force by " + word_of(s.force);
     return text;

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "config/scene.h"
+#include "firmware/quality/quality.h"
 
 namespace eddy::accuracy::sweep {
 
@@ -27,15 +27,10 @@ struct Setting {
 inline constexpr SolverPreset kMethods[] = {SolverPreset::Fast, SolverPreset::Precise,
                                             SolverPreset::Yang2009};
 
-/// How often a preset iterates if nobody says otherwise.
-int usual_iterations(SolverPreset method);
-
 /// "surface", "box", "impulse".
 std::string word_of(ForceWay way);
 /// Throws std::invalid_argument if the word is none of them.
 ForceWay force_way(const std::string& word);
-/// The same of a method's name in scenes.
-SolverPreset method_named(const std::string& word);
 
 /// "fast 32^3, 2 cycles", and what else differs from the usual.
 std::string describe(const Setting& setting);

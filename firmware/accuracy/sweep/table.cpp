@@ -50,7 +50,7 @@ Measurement measurement_from(const Json& j) {
     Measurement m;
     m.index = j.at("index");
     m.point.problem = j.at("case");
-    m.point.setting = {method_named(j.at("method")), j.at("cells"), j.at("iterations"), j.at("dt_factor"),
+    m.point.setting = {preset_named(j.at("method")), j.at("cells"), j.at("iterations"), j.at("dt_factor"),
                        force_way(j.at("force"))};
     m.dt_s = j.at("dt_s");
     m.error = j.at("error").is_null() ? std::nan("") : j.at("error").get<double>();

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "firmware/accuracy/sweep/problem.h"
-#include "firmware/fluid_setup.h"
 #include "firmware/input_error.h"
 
 namespace eddy::accuracy::sweep {
@@ -53,17 +52,6 @@ TEST(Plan, FullSweepHoldsTheQuickOnesUsualSettings) {
     EXPECT_TRUE(has_stages(usual));
     EXPECT_FALSE(has_stages({"B2", {SolverPreset::Fast, 64, 3}}));
     EXPECT_FALSE(has_stages({"B3", {SolverPreset::Fast, 64, 2}}));
-}
-
-TEST(Plan, UsualIterationsAreThePresets) {
-    for (const SolverPreset method : kMethods) {
-        Scene scene = load_scene("validation/B2-shell").scene;
-        scene.solver = {};
-        scene.solver.preset = method;
-        const gles::SolverSetup solver = fluid_setup(scene).solver;
-        EXPECT_EQ(usual_iterations(method),
-                  method == SolverPreset::Yang2009 ? solver.jacobi_sweeps : solver.cycles);
-    }
 }
 
 TEST(Plan, CasesAndGridsNarrowIt) {
