@@ -135,7 +135,8 @@ struct CommandLine {
         verb->add_option("--run-dir", run.run_dir, "where status.json goes");
         verb->add_option(
             "--state-dir", run.state_dir,
-            "where tuning.json is; if it is not there yet, it is made while nobody moves the hand");
+            "where the scene's tuning is kept, as tuning-jet.json; if it is not there yet, it is made\n"
+            "while nobody moves the hand");
     }
 
     void add_tune() {
@@ -146,8 +147,9 @@ struct CommandLine {
         verb->option_defaults()->take_last();
         verb->add_option("SCENE,--scene", tune.scene, "shipped scene or file [that of the exhibit]");
         add_set(*verb, tune.set);
-        verb->add_option("--state-dir", tune.state_dir, "folder for tuning.json [that of the exhibit]");
-        verb->add_flag("--show", tune.show, "print what is kept there, and stop");
+        verb->add_option("--state-dir", tune.state_dir,
+                         "folder for the result, as tuning-jet.json [that of the exhibit]");
+        verb->add_flag("--show", tune.show, "print what is kept there of this scene, and stop");
     }
 
     void add_simulate() {

@@ -10,8 +10,8 @@ namespace eddy {
 
 QualityControl::QualityControl(gles::Gpu& gpu, const Scene& scene, Setup setup)
     : gpu_(gpu), scene_(scene), setup_(std::move(setup)), presets_(setup_.presets, setup_.preset_every) {
-    if (setup_.presets.size() > 1 || setup_.state_dir.empty()) return;
-    if (const auto tuning = stored_tuning(setup_.state_dir, scene, gpu.capabilities().renderer, trouble_)) {
+    if (setup_.presets.size() > 1 || setup_.tuning.empty()) return;
+    if (const auto tuning = stored_tuning(setup_.tuning, scene, gpu.capabilities().renderer, trouble_)) {
         adopt(*tuning);
         adopted_.reset();  // begun with
     }
@@ -74,7 +74,7 @@ std::optional<std::string> QualityControl::work() {
     if (gave_up_) return std::nullopt;
     try {
         if (setup_.presets.size() > 1) return measure_presets();
-        return governor_ || setup_.state_dir.empty() ? std::nullopt : tune();
+        return governor_ || setup_.tuning.empty() ? std::nullopt : tune();
     } catch (const std::exception& e) {  // of the driver, most likely: no memory for a larger grid
         tuner_.reset();
         measuring_.reset();
@@ -111,7 +111,7 @@ std::optional<std::string> QualityControl::tune() {
     const Rung& chosen = tuning.ladder[tuning.chosen];
     std::string text = fmt::format("tuned: {}, {:.1f} ms a step", describe(chosen.quality), chosen.step_ms);
     try {
-        replace_text_file(tuning_file(setup_.state_dir), to_json(tuning));
+        replace_text_file(setup_.tuning, to_json(tuning));
     } catch (const std::runtime_error& e) {
         text += fmt::format("; not kept for the next start: {}", e.what());
     }

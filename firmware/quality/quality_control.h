@@ -16,7 +16,7 @@ class QualityControl {
     struct Setup {
         std::vector<SolverPreset> presets{};  ///< more than one: for the visitor to choose from
         Seconds preset_every{0.0};            ///< they also change by themselves; 0: never
-        std::filesystem::path state_dir{};    ///< of tuning.json; empty: neither read nor written
+        std::filesystem::path tuning{};       ///< file it is kept in; empty: neither read nor written
     };
     QualityControl(gles::Gpu& gpu, const Scene& scene, Setup setup);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -78,13 +79,16 @@ Tuning tuning_from_json(const std::string& text, const std::filesystem::path& fi
     }
 }
 
-std::filesystem::path tuning_file(const std::filesystem::path& state_dir) {
-    return state_dir / "tuning.json";
+std::filesystem::path tuning_file(const std::filesystem::path& state_dir, const std::string& scene) {
+    std::string name = is_scene_file(scene) ? std::filesystem::path(scene).stem().string() : scene;
+    const auto stays = [](unsigned char c) { return c >= 0x80 || std::isalnum(c) || c == '_' || c == '.'; };
+    for (char& c : name)
+        if (!stays(static_cast<unsigned char>(c))) c = '-';
+    return state_dir / fmt::format("tuning-{}.json", name);
 }
 
-std::optional<Tuning> stored_tuning(const std::filesystem::path& state_dir, const Scene& scene,
+std::optional<Tuning> stored_tuning(const std::filesystem::path& file, const Scene& scene,
                                     const std::string& renderer, std::string& trouble) {
-    const std::filesystem::path file = tuning_file(state_dir);
     std::error_code none;
     if (!std::filesystem::exists(file, none)) {
         trouble = fmt::format("{} does not exist", file.string());

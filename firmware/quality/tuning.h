@@ -17,7 +17,7 @@ struct Rung {
     bool operator==(const Rung&) const = default;
 };
 
-/// What a machine was found to be able to do with a scene, and the evidence. Kept as tuning.json in the state folder.
+/// What a machine was found to be able to do with a scene, and the evidence. Kept in the state folder, a file for each scene.
 struct Tuning {
     std::string version, renderer, machine;
     std::string made_at;  ///< UTC, ISO 8601
@@ -41,10 +41,12 @@ std::string to_json(const Tuning& tuning);
 /// Throws InputError that names the file.
 Tuning tuning_from_json(const std::string& text, const std::filesystem::path& file);
 
-std::filesystem::path tuning_file(const std::filesystem::path& state_dir);
-/// The stored tuning, if it is one of this program, renderer and scene. One that cannot be read counts as none; `trouble` says
-/// why there is none.
-std::optional<Tuning> stored_tuning(const std::filesystem::path& state_dir, const Scene& scene,
+/// tuning-jet.json of the scene "jet"; `scene` as load_scene() takes it. Of a scene file counts the name, not the folder. Letters
+/// and digits stay as they are, others than of ASCII too; what a file name had better not have becomes a hyphen.
+std::filesystem::path tuning_file(const std::filesystem::path& state_dir, const std::string& scene);
+/// The tuning in this file, if it is one of this program, renderer and scene. One that cannot be read counts as none; `trouble`
+/// says why there is none.
+std::optional<Tuning> stored_tuning(const std::filesystem::path& file, const Scene& scene,
                                     const std::string& renderer, std::string& trouble);
 
 }  // namespace eddy

@@ -116,6 +116,10 @@ const std::vector<SolverPreset>& presets_of(const RunOptions& options, const Exh
     return options.presets.empty() ? exhibit.presets : options.presets;
 }
 
+const std::string& scene_name(const RunOptions& options, const Exhibit& exhibit) {
+    return options.scene.empty() ? exhibit.scene : options.scene;
+}
+
 /// What the quality of the fluid hangs on. A run on the stepped clock is the same on every machine: it keeps the scene's own.
 QualityControl::Setup quality_setup(const RunOptions& options, const Exhibit& exhibit, const Scene& scene) {
     QualityControl::Setup setup{
@@ -126,7 +130,8 @@ QualityControl::Setup quality_setup(const RunOptions& options, const Exhibit& ex
     const bool may_tune =
         options.clock == ClockChoice::Real && scene.initial.velocity_npy.empty() && !scene.imposed;
     std::error_code none;
-    if (may_tune && std::filesystem::is_directory(folder, none)) setup.state_dir = folder;
+    if (may_tune && std::filesystem::is_directory(folder, none))
+        setup.tuning = tuning_file(folder, scene_name(options, exhibit));
     return setup;
 }
 
@@ -482,7 +487,7 @@ void Run::summarise() const {
 int run(const RunOptions& options) {
     stop_on_signals();
     const Exhibit exhibit = load_exhibit().exhibit;
-    const Scene scene = load_scene(options.scene.empty() ? exhibit.scene : options.scene, options.set).scene;
+    const Scene scene = load_scene(scene_name(options, exhibit), options.set).scene;
     if (options.clock == ClockChoice::Stepped && !options.seconds)
         throw InputError("--clock stepped: say how long with --seconds, or it would never end");
     if (scene.solver.dt_s < kShortestStep.count())
@@ -496,7 +501,7 @@ int run(const RunOptions& options) {
     for (const SolverPreset preset : presets_of(options, exhibit)) {
         std::vector<std::string> set = options.set;
         set.push_back(fmt::format("solver.preset=\"{}\"", to_word(preset)));
-        load_scene(options.scene.empty() ? exhibit.scene : options.scene, set);
+        load_scene(scene_name(options, exhibit), set);
     }
     require_no_screen(options.display.value_or(exhibit.display));
     BodySchedule{scene};  // reads the paths

@@ -34,11 +34,13 @@ void print(const Tuning& t) {
 
 int tune(const TuneOptions& options) {
     const Exhibit exhibit = load_exhibit().exhibit;
-    const Scene scene = load_scene(options.scene.empty() ? exhibit.scene : options.scene, options.set).scene;
+    const std::string& name = options.scene.empty() ? exhibit.scene : options.scene;
+    const Scene scene = load_scene(name, options.set).scene;
     const std::filesystem::path folder =
         options.state_dir.empty() ? exhibit.state_dir : std::filesystem::path(options.state_dir);
+    const std::filesystem::path file = tuning_file(folder, name);
     if (options.show) {
-        print(tuning_from_json(read_text_file(tuning_file(folder)), tuning_file(folder)));
+        print(tuning_from_json(read_text_file(file), file));
         return 0;
     }
     if (scene.imposed)
@@ -57,10 +59,10 @@ int tune(const TuneOptions& options) {
     }
     progress.finish();
     const Tuning& tuning = tuner.tuning();
-    replace_text_file(tuning_file(folder), to_json(tuning));
+    replace_text_file(file, to_json(tuning));
     print(tuning);
     const Rung& chosen = tuning.ladder.at(tuning.chosen);
-    fmt::print("kept in {}; eddy run uses it from its next start on\n", tuning_file(folder).string());
+    fmt::print("kept in {}; eddy run uses it from its next start on\n", file.string());
     if (chosen.step_ms <= tuning.budget_ms) return 0;
     fmt::print(stderr, "tune: not even {} keeps {:.3g} steps a second on this machine\n",
                describe(chosen.quality), tuning.target_hz);

@@ -74,7 +74,7 @@ struct RunOptions {
     double frames_per_s = 10.0;     ///< pictures recorded per second
     ClockChoice clock = ClockChoice::Real;
     std::string run_dir;    ///< where status.json goes; empty: from the configuration, if writable
-    std::string state_dir;  ///< where tuning.json is; empty: from the configuration, if it is there
+    std::string state_dir;  ///< where tunings are kept; empty: from the configuration, if it is there
 };
 int run(const RunOptions& options);
 

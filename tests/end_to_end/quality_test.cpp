@@ -28,7 +28,7 @@ TEST(Tune, KeepsItsChoiceWithTheEvidenceAndTheExhibitBeginsWithIt) {
     const std::vector<std::string> quick = with(kSmall, {"--set", "solver.dt_s=0.01"});
     const Ended tuned = eddy(with({"tune", "stir", "--state-dir", state.path()}, quick));
     EXPECT_LE(tuned.status, 1) << tuned.err;  // 1: this machine is too slow for anything
-    nlohmann::json tuning = read_json(state / "tuning.json");
+    nlohmann::json tuning = read_json(state / "tuning-stir.json");
     const std::size_t chosen = tuning["chosen"];
     ASSERT_LT(chosen, tuning["ladder"].size());
     EXPECT_GE(tuning["measured"].size(), tuning["ladder"].size());
@@ -42,7 +42,7 @@ TEST(Tune, KeepsItsChoiceWithTheEvidenceAndTheExhibitBeginsWithIt) {
         EXPECT_LT(tuning["ladder"][i]["force_error"], tuning["ladder"][i - 1]["force_error"]);
     }
     EXPECT_THAT(tuned.out, HasSubstr("> fast "));
-    EXPECT_EQ(eddy({"tune", "--show", "--state-dir", state.path()}).status, 0);
+    EXPECT_EQ(eddy({"tune", "stir", "--show", "--state-dir", state.path()}).status, 0);
 
     const Ended ran = eddy(with(
         {"run", "--scene", "stir", "--seconds", "1", "--state-dir", state.path(), "--run-dir", run.path()},
@@ -63,15 +63,15 @@ TEST(Tune, NeedsAFolderToKeepItsResultIn) {
 
 TEST(Tune, ShowsWhatIsWrongWithAForeignFile) {
     const ScratchFolder state;
-    state.write("tuning.json", "{}");
-    const Ended ended = eddy({"tune", "--show", "--state-dir", state.path()});
+    state.write("tuning-stir.json", "{}");
+    const Ended ended = eddy({"tune", "stir", "--show", "--state-dir", state.path()});
     EXPECT_EQ(ended.status, 2);
-    EXPECT_THAT(ended.err, HasSubstr("tuning.json: is not what eddy tune writes"));
+    EXPECT_THAT(ended.err, HasSubstr("tuning-stir.json: is not what eddy tune writes"));
 }
 
 TEST(Run, WithAForeignTuningSaysSoAndGoesOnWithTheSceneAsItIs) {
     const ScratchFolder state, run;
-    state.write("tuning.json", "half a fi");
+    state.write("tuning-stir.json", "half a fi");
     const Ended ended = eddy(with(
         {"run", "--scene", "stir", "--seconds", "1", "--state-dir", state.path(), "--run-dir", run.path()},
         kSmall));

@@ -85,26 +85,58 @@ TEST(Tuning, ForeignFileIsNamed) {
     }
 }
 
+TEST(TuningFile, IsOneForEachSceneAndReadable) {
+    const auto name = [](const std::string& scene) { return tuning_file("/state", scene).string(); };
+    EXPECT_EQ(name("jet"), "/state/tuning-jet.json");
+    EXPECT_EQ(name("stir"), "/state/tuning-stir.json");
+    EXPECT_EQ(name("/etc/eddy/scenes/hall_2.toml"), "/state/tuning-hall_2.json");
+    EXPECT_EQ(name("Wirbel 3.toml"), "/state/tuning-Wirbel-3.json");
+    EXPECT_NE(name("水流.toml"), name("火焰.toml"));
+}
+
+TEST(TuningFile, StaysInItsFolderWhateverTheSceneIsCalled) {
+    for (const std::string scene : {"validation/B3", "../../etc/passwd", "a/../..toml", "..", "a\nb.toml"}) {
+        const std::filesystem::path file = tuning_file("/state", scene);
+        EXPECT_EQ(file.parent_path(), "/state") << scene;
+        EXPECT_EQ(file.lexically_normal(), file) << scene;
+        EXPECT_EQ(file.string().find('\n'), std::string::npos);
+    }
+}
+
+TEST(StoredTuning, OfOneSceneOutlivesThatOfAnother) {
+    const ScratchFolder folder;
+    const Tuning t = tuning({rung(24, 1, 5, 6, .06)}, 20.0);
+    Tuning other = t;
+    other.scene = print_scene(load_scene("jet").scene);
+    replace_text_file(tuning_file(folder.path(), "stir"), to_json(t));
+    replace_text_file(tuning_file(folder.path(), "jet"), to_json(other));
+    std::string trouble;
+    EXPECT_TRUE(
+        stored_tuning(tuning_file(folder.path(), "stir"), load_scene("stir").scene, "a card", trouble));
+    EXPECT_TRUE(stored_tuning(tuning_file(folder.path(), "jet"), load_scene("jet").scene, "a card", trouble));
+}
+
 TEST(StoredTuning, CountsOnlyForTheSameProgramRendererAndScene) {
     const ScratchFolder folder;
     const Scene stir = load_scene("stir").scene, jet = load_scene("jet").scene;
     const Tuning t = tuning({rung(24, 1, 5, 6, .06)}, 20.0);
     std::string trouble;
-    EXPECT_FALSE(stored_tuning(folder.path(), stir, "a card", trouble));
+    const std::filesystem::path file = tuning_file(folder.path(), "stir");
+    EXPECT_FALSE(stored_tuning(file, stir, "a card", trouble));
     EXPECT_THAT(trouble, HasSubstr("does not exist"));
-    replace_text_file(tuning_file(folder.path()), to_json(t));
-    EXPECT_EQ(stored_tuning(folder.path(), stir, "a card", trouble), t);
-    EXPECT_FALSE(stored_tuning(folder.path(), jet, "a card", trouble));
+    replace_text_file(file, to_json(t));
+    EXPECT_EQ(stored_tuning(file, stir, "a card", trouble), t);
+    EXPECT_FALSE(stored_tuning(file, jet, "a card", trouble));
     EXPECT_THAT(trouble, HasSubstr("another scene"));
-    EXPECT_FALSE(stored_tuning(folder.path(), stir, "another card", trouble));
+    EXPECT_FALSE(stored_tuning(file, stir, "another card", trouble));
     EXPECT_THAT(trouble, HasSubstr("another renderer, a card"));
     Tuning old = t;
     old.version = "0.0.1";
-    replace_text_file(tuning_file(folder.path()), to_json(old));
-    EXPECT_FALSE(stored_tuning(folder.path(), stir, "a card", trouble));
+    replace_text_file(file, to_json(old));
+    EXPECT_FALSE(stored_tuning(file, stir, "a card", trouble));
     EXPECT_THAT(trouble, HasSubstr("version 0.0.1"));
-    replace_text_file(tuning_file(folder.path()), "half a fi");
-    EXPECT_FALSE(stored_tuning(folder.path(), stir, "a card", trouble));
+    replace_text_file(file, "half a fi");
+    EXPECT_FALSE(stored_tuning(file, stir, "a card", trouble));
     EXPECT_THAT(trouble, HasSubstr("is not what eddy tune writes"));
 }
 
