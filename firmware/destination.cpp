@@ -13,8 +13,7 @@ namespace eddy {
 namespace {
 
 void check_writable(std::string_view option, const std::filesystem::path& folder) {
-    std::error_code error;
-    if (!std::filesystem::is_directory(folder, error))
+    if (!is_folder(folder))
         throw InputError(fmt::format("{}: there is no folder {}", option, folder.string()));
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         throw InputError(
@@ -33,8 +32,7 @@ void prepare_folder(std::string_view option, const std::filesystem::path& folder
 }
 
 void check_destination(std::string_view option, const std::filesystem::path& file) {
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error))
+    if (is_folder(file))
         throw InputError(fmt::format("{}: {} is a folder; name a file", option, file.string()));
     check_writable(option, file.has_parent_path() ? file.parent_path() : std::filesystem::path("."));
 }

@@ -17,7 +17,7 @@ std::string read_text_file(const std::filesystem::path& file) {
         throw std::runtime_error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(reason)));
     };
     // A folder opens like a file and fails only when it is read.
-    if (std::error_code error; std::filesystem::is_directory(file, error)) fail(EISDIR);
+    if (is_folder(file)) fail(EISDIR);
     std::ifstream in(file, std::ios::binary);
     if (!in) fail(errno);
     std::string text(std::istreambuf_iterator<char>(in), {});
@@ -48,6 +48,11 @@ void replace_text_file(const std::filesystem::path& file, std::string_view text)
     const bool flushed = ::fsync(out) == 0;
     if (::close(out) != 0 || !flushed) fail("written to the disk");
     if (::rename(beside.c_str(), file.c_str()) != 0) fail("replaced");
+}
+
+bool is_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    return std::filesystem::is_directory(folder, error);
 }
 
 void make_folder(const std::filesystem::path& folder) {

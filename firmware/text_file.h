@@ -13,6 +13,9 @@ std::string read_text_file(const std::filesystem::path& file);
 /// behind.
 void replace_text_file(const std::filesystem::path& file, std::string_view text);
 
+/// Whether there is such a folder; one that the system will not tell of counts as none.
+bool is_folder(const std::filesystem::path& folder);
+
 /// Makes the folder and those above it. Throws std::runtime_error naming it and the system's reason.
 void make_folder(const std::filesystem::path& folder);
 

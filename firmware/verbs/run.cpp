@@ -129,9 +129,7 @@ QualityControl::Setup quality_setup(const RunOptions& options, const Exhibit& ex
     // A flow that was written for one grid starts on that.
     const bool may_tune =
         options.clock == ClockChoice::Real && scene.initial.velocity_npy.empty() && !scene.imposed;
-    std::error_code none;
-    if (may_tune && std::filesystem::is_directory(folder, none))
-        setup.tuning = tuning_file(folder, scene_name(options, exhibit));
+    if (may_tune && is_folder(folder)) setup.tuning = tuning_file(folder, scene_name(options, exhibit));
     return setup;
 }
 
@@ -162,7 +160,7 @@ class Run {
         // one.
         const std::filesystem::path folder =
             options.run_dir.empty() ? exhibit.run_dir : std::filesystem::path(options.run_dir);
-        if (std::filesystem::is_directory(folder)) status_file_ = folder / "status.json";
+        if (is_folder(folder)) status_file_ = folder / "status.json";
     }
 
     /// Draws everything once, before the clock starts.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "config/scene.h"
+#include "firmware/destination.h"
 #include "firmware/graphics.h"
 #include "firmware/input_error.h"
 #include "firmware/progress.h"
@@ -30,6 +31,18 @@ void print(const Tuning& t) {
                t.ladder.size(), t.measured.size());
 }
 
+Tuning stored_in(const std::filesystem::path& file) {
+    std::error_code none;
+    if (!std::filesystem::exists(file, none))
+        throw InputError(
+            fmt::format("{}: there is no tuning of this scene yet; run eddy tune first", file.string()));
+    try {
+        return tuning_from_json(read_text_file(file), file);
+    } catch (const std::runtime_error& e) {
+        throw InputError(e.what());
+    }
+}
+
 }  // namespace
 
 int tune(const TuneOptions& options) {
@@ -40,15 +53,13 @@ int tune(const TuneOptions& options) {
         options.state_dir.empty() ? exhibit.state_dir : std::filesystem::path(options.state_dir);
     const std::filesystem::path file = tuning_file(folder, name);
     if (options.show) {
-        print(tuning_from_json(read_text_file(file), file));
+        print(stored_in(file));
         return 0;
     }
     if (scene.imposed)
         throw InputError("tune: the flow of this scene is a formula; there is nothing to tune");
-    if (!std::filesystem::is_directory(folder))
-        throw InputError(fmt::format(
-            "tune: {} is not there to keep the result in; make it, or name another folder with --state-dir",
-            folder.string()));
+    prepare_folder(options.state_dir.empty() ? "state_dir (--state-dir names another)" : "--state-dir",
+                   folder);
     const std::unique_ptr<Graphics> graphics = open_headless();
     Tuner tuner(graphics->gpu, scene);
     Progress progress("tune");

@@ -81,7 +81,7 @@ int run(const RunOptions& options);
 struct TuneOptions {
     std::string scene;  ///< empty: what the exhibit's configuration says
     std::vector<std::string> set;
-    std::string state_dir;  ///< as in RunOptions
+    std::string state_dir;  ///< where the result is kept; empty: from the configuration; made if need be
     bool show = false;      ///< print what is stored, and stop
 };
 /// 1 too if not even the cheapest setting keeps the rate.

@@ -55,10 +55,32 @@ TEST(Tune, KeepsItsChoiceWithTheEvidenceAndTheExhibitBeginsWithIt) {
     }
 }
 
-TEST(Tune, NeedsAFolderToKeepItsResultIn) {
-    const Ended ended = eddy(with({"tune", "stir", "--state-dir", "/nowhere/at/all"}, kSmall));
+TEST(Tune, MakesTheFolderItKeepsItsResultInAsRunDoes) {
+    const ScratchFolder folder;
+    const std::vector<std::string> quickest = with(kSmall, {"--set", "solver.dt_s=0.001"});
+    const Ended tuned = eddy(with({"tune", "stir", "--state-dir", folder / "a/b"}, quickest));
+    EXPECT_LE(tuned.status, 1) << tuned.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "a/b/tuning-stir.json")) << tuned.err;
+    const Ended ran =
+        eddy(with({"run", "--scene", "stir", "--seconds", "0.1", "--state-dir", folder / "c/d"}, kSmall));
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_TRUE(std::filesystem::is_directory(folder / "c/d"));
+}
+
+TEST(Tune, SaysBeforeAnyWorkThatAFolderCannotBe) {
+    const ScratchFolder folder;
+    const std::string file = folder.write("file", "");
+    const Ended ended = eddy(with({"tune", "stir", "--state-dir", file}, kSmall));
     EXPECT_EQ(ended.status, 2);
-    EXPECT_THAT(ended.err, HasSubstr("/nowhere/at/all is not there"));
+    EXPECT_THAT(ended.err, HasSubstr("--state-dir: " + file));
+}
+
+TEST(Tune, ThatHasNothingToShowSaysWhatToDo) {
+    const ScratchFolder state;
+    const Ended ended = eddy({"tune", "stir", "--show", "--state-dir", state.path()});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_EQ(ended.err,
+              state / "tuning-stir.json" + ": there is no tuning of this scene yet; run eddy tune first\n");
 }
 
 TEST(Tune, ShowsWhatIsWrongWithAForeignFile) {

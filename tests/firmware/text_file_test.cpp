@@ -89,6 +89,16 @@ TEST(TextFile, ThatIsMissingOrAFolderIsNamed) {
     EXPECT_TRUE(holds(directory, folder.path().string()) && holds(directory, "Is a directory")) << directory;
 }
 
+TEST(Folder, ThatTheSystemWillNotTellOfIsNone) {
+    const ScratchFolder folder;
+    EXPECT_TRUE(is_folder(folder.path()));
+    EXPECT_FALSE(is_folder(folder / "absent"));
+    EXPECT_FALSE(is_folder(folder.write("file", "")));
+    EXPECT_FALSE(is_folder(folder / std::string(5000, 'x'))) << "longer than any name may be";
+    std::filesystem::create_symlink("ring", folder / "ring");
+    EXPECT_FALSE(is_folder(folder / "ring")) << "a link to itself";
+}
+
 TEST(Folder, IsMadeWithThoseAboveItAndMayExist) {
     const ScratchFolder folder;
     make_folder(folder / "a/b/c");
