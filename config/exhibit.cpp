@@ -37,6 +37,9 @@ void check(const Exhibit& exhibit, Findings& findings) {
                        in_quotes(exhibit.scene) +
                            " is neither a shipped scene nor a path; shipped, nearest first: " +
                            listed(nearest_first(exhibit.scene, names)));
+    if (exhibit.preset_s > 0.0 && exhibit.presets.size() < 2)
+        findings.blame(place_of(findings.origins, "preset_s"), "preset_s",
+                       "there are no presets that could change; presets must name two or more");
     for (const auto& [key, path] :
          {std::pair("state_dir", exhibit.state_dir), std::pair("run_dir", exhibit.run_dir)}) {
         if (!path.is_absolute())

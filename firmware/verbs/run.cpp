@@ -495,6 +495,10 @@ int run(const RunOptions& options) {
             scene.solver.dt_s));
     if (presets_of(options, exhibit).size() == 1)
         throw InputError("presets: one alone leaves nothing to choose; name more, or set solver.preset");
+    if (options.preset_s.value_or(0.0) > 0.0 && presets_of(options, exhibit).empty())
+        throw InputError(
+            fmt::format("--preset-s {}: there are no presets that could change; name them with --presets",
+                        *options.preset_s));
     // Each preset must be able to do what the scene asks for.
     for (const SolverPreset preset : presets_of(options, exhibit)) {
         std::vector<std::string> set = options.set;

@@ -79,6 +79,20 @@ TEST_F(ExhibitFolder, FoldersMustBeAbsolute) {
                 ElementsAre(file + ":1:13: state_dir: \"state\" must start with a slash"));
 }
 
+TEST_F(ExhibitFolder, PresetsThatChangeByThemselvesMustBeNamed) {
+    for (const std::string presets : {"", "presets = [\"fast\"]\n"}) {
+        const std::string file = write("exhibit.toml", "preset_s = 30\n" + presets);
+        EXPECT_THAT(
+            complaints([&] { load_exhibit_file(file); }),
+            ElementsAre(
+                file +
+                ":1:12: preset_s: there are no presets that could change; presets must name two or more"));
+    }
+    write("exhibit.toml", "preset_s = 30\n");
+    write("conf.d/10-site.toml", "presets = [\"fast\", \"yang2009\"]\n");
+    EXPECT_EQ(load_exhibit(folder_).exhibit.preset_s, 30.0);
+}
+
 TEST_F(ExhibitFolder, FileThatIsCheckedMustExist) {
     EXPECT_THAT(complaints([&] { load_exhibit_file(folder_ / "absent.toml"); }),
                 ElementsAre(HasSubstr("absent.toml: cannot be read: No such file")));

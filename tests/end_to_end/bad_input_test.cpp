@@ -62,6 +62,7 @@ TEST_F(BadInput, OnTheCommandLineIsNamed) {
     expect_refused({"run", "--haptics", "feet"}, {"--haptics", "feet", "falcon"});
     expect_refused({"run", "--clock", "sundial"}, {"--clock", "sundial", "real|stepped"});
     expect_refused({"run", "--seed", "-3"}, {"--seed", "-3"});
+    expect_refused({"run", "--seconds", "1", "--preset-s", "5"}, {"--preset-s 5", "--presets"});
     expect_refused({"bench", "--grid", "3"}, {"--grid", "3"});
     expect_refused({"bench", "--grid", "16,x"}, {"--grid", "x"});
     expect_refused({"bench", "--repeats", "0"}, {"--repeats", "0"});
