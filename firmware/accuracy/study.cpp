@@ -42,9 +42,9 @@ Row measure(gles::Gpu& gpu, const Case& one, int cells) {
 
 }  // namespace
 
-Scene scene_on_grid(const Case& one, int cells) {
+Scene scene_on_grid(const Case& one, int cells, std::string_view asked_by) {
     const Scene written = load_scene(one.scene, one.set).scene;
-    Scene scene = with_longest_side(written, cells);
+    Scene scene = with_longest_side(written, cells, asked_by);
     const double finer = written.tank.cell_m() / scene.tank.cell_m();
     const double dt = written.solver.dt_s / std::pow(finer, power_of_h(one.time_step));
     const double part_s = scene.outputs.duration_s / one.parts;

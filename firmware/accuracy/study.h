@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "firmware/accuracy/case.h"
+#include "firmware/scene_grid.h"
 
 namespace eddy::accuracy {
 
@@ -40,8 +41,9 @@ struct Study {
 };
 
 /// The case's scene with so many cells along its longest side, and the time step that goes with them: as near to the
-/// rule as a whole number of steps in each of its parts allows. Throws InputError if the grid does not fit the tank.
-Scene scene_on_grid(const Case& one, int cells);
+/// rule as a whole number of steps in each of its parts allows. Throws InputError, as with_longest_side(), if the grid does not
+/// fit the tank.
+Scene scene_on_grid(const Case& one, int cells, std::string_view asked_by = kAnyGrid);
 
 /// The error of a measured value.
 double error_of(const Quantity& quantity, double measured);

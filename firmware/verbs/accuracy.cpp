@@ -29,7 +29,8 @@ std::vector<Task> tasks_of(const AccuracyOptions& options) {
         if (one->quick.empty() && !options.full && options.cases.empty()) continue;
         Task& task = tasks.emplace_back(Task{*one, options.grids.empty() ? grids : options.grids});
         task.of.set.insert(task.of.set.end(), options.set.begin(), options.set.end());
-        for (const int cells : task.grids) accuracy::scene_on_grid(task.of, cells);
+        for (const int cells : task.grids)
+            accuracy::scene_on_grid(task.of, cells, options.grids.empty() ? kNoGridOption : kGridOption);
     }
     return tasks;
 }

@@ -94,7 +94,8 @@ int bench(const BenchOptions& options) {
     const Scene scene = load_scene(options.scene.empty() ? "bench" : options.scene, options.set).scene;
     const std::vector<int> grids =
         options.grids.empty() ? std::vector<int>(std::begin(kGrids), std::end(kGrids)) : options.grids;
-    for (const int cells : grids) with_longest_side(scene, cells);
+    for (const int cells : grids)
+        with_longest_side(scene, cells, options.grids.empty() ? kNoGridOption : kGridOption);
     BodySchedule{scene};  // reads the paths
     if (!options.json.empty()) check_destination("--json", options.json);
     const std::unique_ptr<Graphics> graphics = open_headless();

@@ -22,7 +22,7 @@ Scene scene_of(const BenchOptions& options) {
     if (options.grids.size() > 1)
         throw InputError(
             fmt::format("--grid: --effects compares scenes on one grid, not on {}", options.grids.size()));
-    if (!options.grids.empty()) scene = with_longest_side(std::move(scene), options.grids[0]);
+    if (!options.grids.empty()) scene = with_longest_side(std::move(scene), options.grids[0], kGridOption);
     if (effects::effects_of(scene).empty())
         throw InputError(fmt::format(
             "{}: this scene has no effect that could be left out; print-config --keys lists them", name));

@@ -21,7 +21,8 @@ int bench_paper(const BenchOptions& options) {
     const Scene scene = load_scene(options.scene.empty() ? "bench" : options.scene, options.set).scene;
     const std::vector<int> grids =
         options.grids.empty() ? std::vector<int>(std::begin(kGrids), std::end(kGrids)) : options.grids;
-    for (const int cells : grids) with_longest_side(scene, cells);
+    for (const int cells : grids)
+        with_longest_side(scene, cells, options.grids.empty() ? kNoGridOption : kGridOption);
     prepare_folder("--paper", options.paper);
     const std::unique_ptr<Graphics> graphics = open_headless();
     const std::string renderer = graphics->gpu.capabilities().renderer;

@@ -120,6 +120,15 @@ TEST_F(BadInput, InARecordedMotionIsNamedWithFileAndLine) {
     expect_refused({"bench", "--scene", path_scene}, {folder / "bad.csv:3", "oops"});
 }
 
+TEST_F(BadInput, AboutAGridNamesTheOptionOnlyWhereItWasGiven) {
+    const std::string flat =
+        folder.write("flat.toml", "[tank]\nsize_m = [0.32, 0.16, 0.16]\ncells = [32, 16, 16]\n");
+    expect_refused({"bench", flat, "--grid", "27"}, {"--grid 27: ", "27 x 13.5 x 13.5"});
+    expect_refused({"bench", flat}, {"without --grid, a grid of 25: ", "25 x 12.5 x 12.5"});
+    expect_refused({"bench", flat, "--paper", out}, {"without --grid, a grid of 25: "});
+    expect_refused({"accuracy", "--sweep", "--case", "A1", "--grid", "25", "--out", out}, {"--grid 25: "});
+}
+
 TEST_F(BadInput, AboutTheClockIsNamed) {
     expect_refused({"run", "--clock", "stepped"}, {"--clock stepped", "--seconds"});
     expect_refused({"run", "--clock", "stepped", "--record", out}, {"--seconds"});

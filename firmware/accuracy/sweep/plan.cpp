@@ -88,7 +88,8 @@ std::vector<Point> points_of(const Order& order) {
         Points points(problem, order.full);
         for (const int cells :
              order.grids.empty() ? (order.full ? problem.full : problem.quick) : order.grids) {
-            scene_on_grid(problem.of, cells);  // complains of a grid that does not fit the tank
+            // Complains of a grid that does not fit the tank.
+            scene_on_grid(problem.of, cells, order.grids.empty() ? kAnyGrid : kGridOption);
             points.on_grid(cells);
         }
         all.insert(all.end(), points.points.begin(), points.points.end());
