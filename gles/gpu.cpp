@@ -3,6 +3,9 @@
 #include <GLES3/gl3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 namespace eddy::gles {
 
 void finish() {
@@ -47,6 +50,20 @@ unsigned Gpu::framebuffer(const std::vector<const Texture*>& targets) {
                                   capabilities_.renderer, targets.size(), to_string(targets[0]->format()),
                                   status));
     return framebuffers_[key] = framebuffer;
+}
+
+void Gpu::free_idle_textures() {
+    const std::vector<std::unique_ptr<Texture>> idle = textures_.take_idle();
+    std::set<std::uint64_t> gone;
+    for (const auto& texture : idle) gone.insert(texture->serial());
+    // A framebuffer keeps the memory of what is attached to it.
+    std::erase_if(framebuffers_, [&](const auto& entry) {
+        const auto& [serials, framebuffer] = entry;
+        const bool holds_one =
+            std::any_of(serials.begin(), serials.end(), [&](std::uint64_t s) { return gone.contains(s); });
+        if (holds_one) glDeleteFramebuffers(1, &framebuffer);
+        return holds_one;
+    });
 }
 
 Gpu::Stage::Stage(Gpu& gpu, std::string_view name) : gpu_(gpu), outer_(gpu.stage_) {

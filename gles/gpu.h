@@ -44,6 +44,9 @@ class Gpu {
 
     /// Framebuffer with these colour attachments (0 to 3), made once.
     unsigned framebuffer(const std::vector<const Texture*>& targets);
+    /// Gives back to the driver the textures of the pool that nobody holds: after work on other grids than those that go on. What
+    /// a fluid that goes on needs for a step only, its next step makes anew.
+    void free_idle_textures();
 
     /// While a Stage lives, passes are recorded under its name, and the watcher hears its begin and end.
     class Stage {

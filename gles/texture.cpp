@@ -3,6 +3,8 @@
 #include <GLES3/gl3.h>
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "gles/context.h"
 
 namespace eddy::gles {
@@ -116,6 +118,11 @@ TexturePool::Lease TexturePool::lease(const glm::ivec2& size, Format format) {
     ++made_;
     bytes_ += texture->bytes();
     return {this, std::move(texture)};
+}
+
+std::vector<std::unique_ptr<Texture>> TexturePool::take_idle() {
+    for (const auto& texture : idle_) bytes_ -= texture->bytes();
+    return std::exchange(idle_, {});
 }
 
 }  // namespace eddy::gles

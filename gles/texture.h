@@ -68,6 +68,8 @@ class TexturePool {
 
     /// A texture of unknown content.
     Lease lease(const glm::ivec2& size, Format format);
+    /// Hands over the textures that nobody holds; who lets them go must let go of the framebuffers with them first.
+    std::vector<std::unique_ptr<Texture>> take_idle();
     /// Textures made since start, and the bytes of all that exist now.
     std::size_t made() const { return made_; }
     std::size_t bytes() const { return bytes_; }

@@ -78,6 +78,7 @@ std::optional<std::string> QualityControl::work() {
     } catch (const std::exception& e) {  // of the driver, most likely: no memory for a larger grid
         tuner_.reset();
         measuring_.reset();
+        gpu_.free_idle_textures();
         gave_up_ = true;
         trouble_ = e.what();
         return "measuring was given up until the next start: " + trouble_;
@@ -93,6 +94,7 @@ std::optional<std::string> QualityControl::measure_presets() {
         if (measuring_->done()) {
             errors_[quality] = measuring_->error();
             measuring_.reset();
+            gpu_.free_idle_textures();
         }
         break;
     }

@@ -124,6 +124,7 @@ void Tuner::finish_candidate() {
     fluid_.reset();
     motions_.reset();
     step_ms_.clear();
+    gpu_.free_idle_textures();  // of this grid: all of them together would be hundreds of MB
     // Work grows with the cells, or more slowly.
     const double expected_ms = rung.step_ms * next * next;
     go_on(rung.step_ms > tuning_.budget_ms || expected_ms > 2.0 * tuning_.budget_ms);
