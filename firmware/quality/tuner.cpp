@@ -19,7 +19,7 @@ namespace eddy {
 namespace {
 
 constexpr int kGrids[] = {16, 24, 32, 40, 48, 56, 64, 80, 96, 112, 128};
-constexpr int kWarmUp = 5, kSteps = 60;
+constexpr std::size_t kSteps = 60;
 constexpr int kPictures = 5;
 constexpr double kPictureHz = 30.0;
 /// Pictures may take this share of the time; the rest is the fluid's.
@@ -93,37 +93,40 @@ void Tuner::work() {
     if (!error_->done()) {
         error_->work();
     } else if (!fluid_) {
-        const Scene scene = with_quality(scene_, candidate());
-        motions_.emplace(scene);
-        fluid_ = gles::make_fluid(gpu_, fluid_setup(scene));
-        time_a_step();
+        make_fluid();
     } else {
-        time_a_step();
-        if (step_ms_.size() == kWarmUp + kSteps) finish_candidate();
+        timer_->time_step();
+        if (timer_->times().wall_ms.size() == kSteps) finish_candidate();
     }
 }
 
-void Tuner::time_a_step() {
+void Tuner::make_fluid() {
+    const Scene scene = with_quality(scene_, candidate());
+    motions_.emplace(scene);
+    fluid_ = gles::make_fluid(gpu_, fluid_setup(scene));
+    timer_.emplace(
+        gpu_, [this] { take_a_step(); }, [this] { fluid_->result(true); });
+    timer_->warm_up();
+}
+
+void Tuner::take_a_step() {
     const double dt_s = scene_.solver.dt_s, time_s = static_cast<double>(fluid_->steps() + 1) * dt_s;
     std::vector<gles::BodyState> bodies = motions_->at(time_s, dt_s);
     move_held(bodies, *motions_, scene_, time_s);
-    const double start = Stopwatch::now().wall_ms;
     fluid_->step(dt_s, bodies, false);
-    step_ms_.push_back(Stopwatch::now().wall_ms - start);
-    fluid_->result(false);
 }
 
 void Tuner::finish_candidate() {
-    step_ms_.erase(step_ms_.begin(), step_ms_.begin() + kWarmUp);
-    const Rung rung{candidate(), median(step_ms_), percentile_95(step_ms_), error_->error()};
+    const std::vector<double>& step_ms = timer_->times().wall_ms;
+    const Rung rung{candidate(), median(step_ms), percentile_95(step_ms), error_->error()};
     tuning_.measured.push_back(rung);
     choose(tuning_);
     const double next =
         grid_ + 1 < grids_.size() ? static_cast<double>(grids_[grid_ + 1]) / grids_[grid_] : 1.0;
     error_.reset();
+    timer_.reset();
     fluid_.reset();
     motions_.reset();
-    step_ms_.clear();
     gpu_.free_idle_textures();  // of this grid: all of them together would be hundreds of MB
     // Work grows with the cells, or more slowly.
     const double expected_ms = rung.step_ms * next * next;

@@ -5,6 +5,7 @@
 #include "firmware/body_schedule.h"
 #include "firmware/quality/force_error.h"
 #include "firmware/quality/tuning.h"
+#include "firmware/step_timer.h"
 
 namespace eddy {
 
@@ -17,7 +18,7 @@ class Tuner {
     Tuner(gles::Gpu& gpu, const Scene& scene);
 
     bool done() const { return series_ == kSeries; }
-    /// A piece: one step, or one fluid made and its shaders compiled. Throws if nothing at all can be used.
+    /// A piece: one step, or one fluid made, its shaders compiled and its first steps taken. Throws if nothing at all can be used.
     void work();
     /// What it is at, "fast 48^3, 2 cycles"; empty when done.
     std::string doing() const;
@@ -33,7 +34,8 @@ class Tuner {
     Quality candidate() const;
     /// To the next grid, or the next series if this one has become too slow.
     void go_on(bool too_slow);
-    void time_a_step();
+    void make_fluid();
+    void take_a_step();
     void finish_candidate();
 
     gles::Gpu& gpu_;
@@ -47,7 +49,7 @@ class Tuner {
     std::optional<ForceError> error_;
     std::unique_ptr<gles::Fluid> fluid_;
     std::optional<BodySchedule> motions_;
-    std::vector<double> step_ms_;
+    std::optional<StepTimer> timer_;
 };
 
 }  // namespace eddy
