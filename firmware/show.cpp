@@ -51,10 +51,10 @@ Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange)
     : Show(gpu, scene, exchange, quality_of(scene)) {}
 
 Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange, const Quality& quality)
-    : scene_(scene),
+    : gpu_(gpu),
+      scene_(scene),
       exchange_(exchange),
       motions_(scene),
-      gpu_(gpu),
       quality_(quality),
       fluid_(&made(quality_)),
       states_(motions_.at(0.0, scene.solver.dt_s)) {}

@@ -59,13 +59,13 @@ class Show {
     std::optional<ForceRipple::Figures> ripple() const { return ripple_.figures(); }
 
   private:
-    Scene scene_;
-    HapticExchange& exchange_;
-    BodySchedule motions_;
     gles::Fluid& made(const Quality& quality);
     void take_a_step(gles::Fluid& fluid) const;
 
     gles::Gpu& gpu_;
+    Scene scene_;
+    HapticExchange& exchange_;
+    BodySchedule motions_;
     Quality quality_;
     std::map<Quality, std::unique_ptr<gles::Fluid>>
         fluids_;          ///< all that were asked for: going back is quick
