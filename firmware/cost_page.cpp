@@ -41,6 +41,18 @@ std::string rounded(double x) {
     return fmt::format("{:.{}f}", x, x < 9.95 ? 1 : 0);
 }
 
+/// What of it is no wider than that, with an ellipsis for the rest.
+std::string cut_to(double ems, std::string text) {
+    const gles::Font font;
+    if (font.width_px(text, 1.0) <= ems) return text;
+    const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };  // UTF-8
+    while (!text.empty() && font.width_px(text + "…", 1.0) > ems) {
+        while (text.size() > 1 && goes_on(text.back())) text.pop_back();
+        text.pop_back();
+    }
+    return text + "…";
+}
+
 /// Writes a page from its top to its bottom.
 class Writer {
   public:
@@ -54,6 +66,11 @@ class Writer {
         down(kLine);
         write(kMargin, std::move(word), kWord);
         write(kValues, std::move(value), kValue);
+    }
+    /// A line of words alone, as much of them as there is room for.
+    void note(std::string words) {
+        down(kLine);
+        write(kMargin, cut_to(kEmsWide - 2.0 * kMargin, std::move(words)), kWord);
     }
     void bar(std::string word, double length, std::string value, const glm::dvec3& colour) {
         down(kLine);
@@ -107,6 +124,7 @@ void write_table(Writer& page, const CostFigures& f) {
         divergence += fmt::format(" (÷ {})", rounded(f.divergence_before_1_s / f.divergence_after_1_s));
     page.row("max |∇·u|", f.divergence_before_1_s > 0.0 ? std::move(divergence) : "not known yet");
     page.row("quality", fmt::format("{} × down, {} × up", f.quality_down, f.quality_up));
+    if (!f.quality_note.empty()) page.note(f.quality_note);
 }
 
 void write_bars(Writer& page, const CostFigures& f) {

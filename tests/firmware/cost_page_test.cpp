@@ -57,6 +57,26 @@ TEST(CostPage, SaysWhatIsNotKnown) {
     EXPECT_THAT(words, Not(Contains(HasSubstr("within"))));
 }
 
+TEST(CostPage, SaysWhyTheQualityIsWhatItIs) {
+    CostFigures f = some_figures();
+    const std::size_t lines = words_of(f).size();
+    f.quality_note = "steps took 24.3 ms, 20 are allowed";
+    EXPECT_THAT(words_of(f), Contains("steps took 24.3 ms, 20 are allowed"));
+    EXPECT_EQ(words_of(f).size(), lines + 1);
+}
+
+TEST(CostPage, CutsANoteThatIsTooLongForItBetweenLetters) {
+    CostFigures f = some_figures();
+    f.quality_note = "not tuned: /var/lib/eddy/tuning-jet.json is of another renderer, a very long name";
+    EXPECT_THAT(words_of(f), Contains(testing::StartsWith("not tuned: /var/lib/eddy/tun")));
+    EXPECT_THAT(words_of(f), Contains(testing::EndsWith("…")));
+    // A letter of two bytes, wider than the sign for half of it.
+    f.quality_note.clear();
+    for (int i = 0; i < 40; ++i) f.quality_note += "Ǆ";
+    for (int i = 0; i < 8; ++i, f.quality_note = "i" + f.quality_note)
+        EXPECT_THAT(words_of(f), Contains(testing::EndsWith("Ǆ…")));
+}
+
 TEST(CostPage, CallsAnErrorByOneFigureAndNeverByNone) {
     const std::pair<double, const char*> errors[] = {
         {0.35, "35 %"}, {0.02, "2 %"}, {0.0096, "1 %"}, {0.0004, "0.04 %"}, {1e-6, "less than 0.01 %"}};
@@ -129,6 +149,7 @@ TEST(CostPage, FitsIntoEveryPictureWithAllItsWordsInside) {
     f.divergence_before_1_s = 1.23e-7;
     f.divergence_after_1_s = 1.23e-11;
     f.quality_down = f.quality_up = 9999;
+    f.quality_note = std::string(100, 'W');
     f.stages.clear();
     for (int i = 0; i < 12; ++i) f.stages.push_back({"advect velocity", 999.9});
     f.step_ms = 9999.9;
