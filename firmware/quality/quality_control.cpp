@@ -49,7 +49,7 @@ Quality QualityControl::first() const {
     return governor_ ? ladder_[governor_->figures().rung].quality : all().front();
 }
 
-std::optional<QualityControl::Change> QualityControl::update(Instant now, Seconds interval,
+std::optional<QualityControl::Change> QualityControl::update(Instant now, Seconds interval, Seconds elsewhere,
                                                              std::uint8_t buttons) {
     if (setup_.presets.size() > 1) {
         const auto chosen = presets_.look(now, buttons);
@@ -61,7 +61,9 @@ std::optional<QualityControl::Change> QualityControl::update(Instant now, Second
         return Change{quality, "this machine has been tuned"};
     }
     if (!governor_) return std::nullopt;
-    const auto rung = governor_->update(interval);
+    // What went elsewhere made it late only where it did not fit into what the fluid left of its period.
+    const Seconds on_time = std::min(interval, Seconds(scene_.solver.dt_s));
+    const auto rung = governor_->update(std::max(interval - elsewhere, on_time));
     if (!rung) return std::nullopt;
     return Change{ladder_[*rung].quality, governor_->figures().reason};
 }
@@ -137,6 +139,7 @@ int QualityControl::steps_up() const {
 
 std::string QualityControl::note() const {
     if (tuner_) return fmt::format("tuning: trying {}", tuner_->doing());
+    if (gave_up_) return "measuring was given up: " + trouble_;
     if (!governor_) return trouble_.empty() ? "" : "not tuned: " + trouble_;
     const GovernorFigures figures = governor_->figures();
     return figures.trouble.empty() ? figures.reason : std::string(figures.trouble);

@@ -25,12 +25,14 @@ class QualityControl {
     /// The one to begin with.
     Quality first() const;
 
-    /// After each update of the fluid. The quality to go on with, when it changes; and why, for the log.
+    /// The quality to go on with, and why, for the log.
     struct Change {
         Quality quality;
         std::string reason;
     };
-    std::optional<Change> update(Instant now, Seconds interval, std::uint8_t buttons);
+    /// After each update of the fluid; `interval` since the last, and how much of it went `elsewhere`, into pictures or what
+    /// work() does: that made the fluid late, but no other quality would help. The change, if there is one.
+    std::optional<Change> update(Instant now, Seconds interval, Seconds elsewhere, std::uint8_t buttons);
     /// Now and then: how long a step kept the machine busy.
     void step_took(double busy_ms);
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <thread>
 
@@ -186,6 +187,8 @@ class Run {
     /// What is due at a time that is `interval` after the last: a step of the fluid, or rest.
     void go_on(Instant now, Seconds interval);
     void fluid_update(Instant now, Seconds dt);
+    /// Other work of this thread: it is not the fluid's fault when the next step is late for it. Returns what it took.
+    Seconds beside_the_fluid(const std::function<void()>& work);
     void change_quality(const QualityControl::Change& change);
     /// What can wait until nobody is here.
     void use_the_quiet();
@@ -211,6 +214,7 @@ class Run {
     RestWatch watch_;
     bool moves_by_itself_;
     Instant rest_ends_{0};
+    Seconds elsewhere_{0.0};  ///< of the interval until the next update: spent beside the fluid
     TickTrace trace_;
     std::vector<TickRecord> ticks_{4096};
     std::optional<HapticLoop> loop_;
@@ -263,6 +267,7 @@ CostFigures Run::cost() const {
 }
 
 void Run::go_on(Instant now, Seconds interval) {
+    const Seconds elsewhere = std::exchange(elsewhere_, Seconds(0.0));
     const PoseSnapshot pose = exchange_.pose.newest();
     watch_.see(now, pose.known ? std::optional(pose.position_m) : std::nullopt, pose.buttons);
     if (auto speed_m_s = show_.figures().fluid_speed_m_s; speed_m_s && !moves_by_itself_) {
@@ -270,14 +275,23 @@ void Run::go_on(Instant now, Seconds interval) {
             speed_m_s = std::max(*speed_m_s, glm::length(body.velocity_m_s));
         watch_.all_moves_at(*speed_m_s);
     }
-    if (watch_.nobody_here()) use_the_quiet();
+    if (watch_.nobody_here()) beside_the_fluid([this] { use_the_quiet(); });
     if (watch_.may_rest() && now < rest_ends_) {
         show_.rest(now);
         return;
     }
     rest_ends_ = now + kRestPeriod;
     fluid_update(now, std::min(interval, kLongestStep));
-    if (const auto change = quality_.update(now, interval, pose.buttons)) change_quality(*change);
+    if (const auto change = quality_.update(now, interval, elsewhere, pose.buttons)) change_quality(*change);
+}
+
+Seconds Run::beside_the_fluid(const std::function<void()>& work) {
+    gles::finish();  // of the fluid's step: that is its own
+    const RealClock clock;
+    work();
+    const Seconds took = clock.now();
+    elsewhere_ += took;
+    return took;
 }
 
 void Run::fluid_update(Instant now, Seconds dt) {
@@ -389,10 +403,9 @@ void Run::real() {
         last = now;
         show_.publish(false);
         if (recorder_ && now >= frame_due_) {
-            record_frame(now);
-            const Instant took = clock.now() - now;
-            frame_due_ = now + std::max(frame_period, Instant(static_cast<Instant::rep>(
-                                                          static_cast<double>(took.count()) / kRenderShare)));
+            const Seconds took = beside_the_fluid([&] { record_frame(now); });
+            frame_due_ =
+                now + std::max(frame_period, std::chrono::duration_cast<Instant>(took / kRenderShare));
         }
         show_.publish(false);
         drain_trace();
