@@ -50,6 +50,7 @@ TEST_F(TunerTest, TriesEachNumberOfIterationsAndKeepsPresetAndRate) {
     EXPECT_LT(tuning.budget_ms, 50.0);
     EXPECT_GE(tuning.budget_ms, 30.0) << "pictures may take 40 % of the time";
     EXPECT_LT(tuning.chosen, tuning.ladder.size());
+    EXPECT_GE(pieces, 3 * 60) << "each timed step is a piece";
     EXPECT_THAT(tuning.made_at, MatchesRegex("20..-..-..T..:..:..Z"));
     EXPECT_EQ(tuning.scene, print_scene(small_tank("dt_s = 0.05\n")));
 }
@@ -86,11 +87,6 @@ TEST_F(TunerTest, SaysWhatItIsAtAndHowFarItIs) {
     const Tuning before = tuner.tuning();
     tuner.work();
     EXPECT_EQ(tuner.tuning(), before) << "there is nothing left to do";
-}
-
-TEST_F(TunerTest, WorksInPiecesOfAStepOrAFluid) {
-    tuning_of(small_tank());
-    EXPECT_GE(pieces, 3 * 60) << "each timed step is a piece";
 }
 
 TEST_F(TunerTest, GivesBackTheTexturesItUsed) {
