@@ -74,11 +74,12 @@ void Show::warm_up(const std::vector<Quality>& qualities) {
     for (const auto& [quality, fluid] : fluids_) fluid->reset();
 }
 
-void Show::make_ready(const Quality& quality) {
-    if (is_ready(quality)) return;
+const gles::Fluid& Show::make_ready(const Quality& quality) {
+    if (is_ready(quality)) return made(quality);
     gles::Fluid& fluid = made(quality);
     take_a_step(fluid);
     fluid.take_over(*fluid_);
+    return fluid;
 }
 
 void Show::take_a_step(gles::Fluid& fluid) const {

@@ -35,8 +35,8 @@ class Show {
     /// start: drivers compile a shader when it is first drawn with, which takes seconds on some and must not fall into the
     /// show. Before the show only.
     void warm_up(const std::vector<Quality>& qualities);
-    /// The same for one quality, during the show.
-    void make_ready(const Quality& quality);
+    /// The same for one quality, during the show. Its fluid.
+    const gles::Fluid& make_ready(const Quality& quality);
     bool is_ready(const Quality& quality) const { return fluids_.contains(quality); }
     /// From now on the fluid is computed so, from where it is; the force goes over to it without a jump. Quick only if
     /// it is ready.

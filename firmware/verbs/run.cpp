@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstring>
 #include <functional>
-#include <map>
 #include <thread>
 
 #include "config/scene.h"
@@ -22,7 +21,7 @@
 #include "firmware/stopwatch.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/verbs.h"
-#include "firmware/view.h"
+#include "firmware/views.h"
 #include "hal/haptic/emulated/make_emulated_falcon.h"
 #include "hal/haptic/emulated/person_motion.h"
 #include "hal/haptic/emulated/recorded_motion.h"
@@ -150,7 +149,7 @@ class Run {
           watch_(std::max({scene.tank.size_m.x, scene.tank.size_m.y, scene.tank.size_m.z})),
           moves_by_itself_(moves_by_itself(scene)),
           trace_(20000),
-          shows_cost_(options.overlay.value_or(exhibit.overlay) == OverlayChoice::Cost) {
+          views_(graphics_->gpu, scene, options.overlay.value_or(exhibit.overlay) == OverlayChoice::Cost) {
         if (!options.record.empty()) recorder_.emplace(options.record);
         stopwatch_.keep_last(kSamples);
         HapticLoopSettings settings;
@@ -189,11 +188,11 @@ class Run {
     void fluid_update(Instant now, Seconds dt);
     /// Other work of this thread: it is not the fluid's fault when the next step is late for it. Returns what it took.
     Seconds beside_the_fluid(const std::function<void()>& work);
-    void change_quality(const QualityControl::Change& change);
+    void change_quality(const QualityControl::Change& change, Instant now);
     /// What can wait until nobody is here.
-    void use_the_quiet();
-    /// Of the grid that is shown now.
-    View& view();
+    void use_the_quiet(Instant now);
+    /// Fluid and picture of this quality, before they are shown.
+    void make_ready(const Quality& quality, Instant now);
     void record_frame(Instant now);
     CostFigures cost() const;
     void drain_trace();
@@ -218,8 +217,7 @@ class Run {
     TickTrace trace_;
     std::vector<TickRecord> ticks_{4096};
     std::optional<HapticLoop> loop_;
-    bool shows_cost_;
-    std::map<int, View> views_;  ///< by cells along the longest side
+    Views views_;
     std::optional<Recorder> recorder_;
     std::filesystem::path status_file_;
     HapticOrders orders_;
@@ -245,16 +243,15 @@ void Run::give_orders() {
 void Run::warm_up() {
     const RealClock clock;
     show_.warm_up(quality_.all());
-    if (recorder_) view().draw(show_.fluid(), show_.bodies(), Instant(0), [this] { return cost(); });
+    for (const Quality& quality : quality_.all()) make_ready(quality, Instant(0));
     gles::finish();
     if (const Seconds took = clock.now(); took > kSlowWarmUp)
         fmt::print(stderr, "run: the driver took {:.1f} s to prepare its shaders\n", took.count());
 }
 
-View& Run::view() {
-    return views_
-        .try_emplace(show_.quality().cells, graphics_->gpu, show_.fluid().setup(), scene_, shows_cost_)
-        .first->second;
+void Run::make_ready(const Quality& quality, Instant now) {
+    const gles::Fluid& fluid = show_.make_ready(quality);
+    if (recorder_) views_.make_ready(fluid, show_.bodies(), now, [this] { return cost(); });
 }
 
 CostFigures Run::cost() const {
@@ -275,14 +272,15 @@ void Run::go_on(Instant now, Seconds interval) {
             speed_m_s = std::max(*speed_m_s, glm::length(body.velocity_m_s));
         watch_.all_moves_at(*speed_m_s);
     }
-    if (watch_.nobody_here()) beside_the_fluid([this] { use_the_quiet(); });
+    if (watch_.nobody_here()) beside_the_fluid([&] { use_the_quiet(now); });
     if (watch_.may_rest() && now < rest_ends_) {
         show_.rest(now);
         return;
     }
     rest_ends_ = now + kRestPeriod;
     fluid_update(now, std::min(interval, kLongestStep));
-    if (const auto change = quality_.update(now, interval, elsewhere, pose.buttons)) change_quality(*change);
+    if (const auto change = quality_.update(now, interval, elsewhere, pose.buttons))
+        change_quality(*change, now);
 }
 
 Seconds Run::beside_the_fluid(const std::function<void()>& work) {
@@ -306,17 +304,18 @@ void Run::fluid_update(Instant now, Seconds dt) {
     stopwatch_.set_on(false);
 }
 
-void Run::change_quality(const QualityControl::Change& change) {
+void Run::change_quality(const QualityControl::Change& change, Instant now) {
+    make_ready(change.quality, now);
     show_.set_quality(change.quality);
     give_orders();
     stopwatch_.forget();
     fmt::print(stderr, "run: {} from now on: {}\n", describe(change.quality), change.reason);
 }
 
-void Run::use_the_quiet() {
+void Run::use_the_quiet(Instant now) {
     for (const Quality& quality : quality_.all())
         if (!show_.is_ready(quality)) {
-            show_.make_ready(quality);
+            make_ready(quality, now);
             give_orders();
             return;
         }
@@ -325,10 +324,11 @@ void Run::use_the_quiet() {
 
 void Run::record_frame(Instant now) {
     stopwatch_.set_on(true);
-    view().draw(show_.fluid(), show_.bodies(), now, [this] { return cost(); });
+    View& view = views_.of(show_.fluid());
+    view.draw(show_.fluid(), show_.bodies(), now, [this] { return cost(); });
     stopwatch_.set_on(false);
     try {
-        recorder_->add(view().renderer(), scene_.render.width_px, scene_.render.height_px);
+        recorder_->add(view.renderer(), scene_.render.width_px, scene_.render.height_px);
     } catch (const std::runtime_error& e) {
         // A full disk must not stop the show.
         fmt::print(stderr, "recording stopped: {}\n", e.what());

@@ -12,8 +12,8 @@ struct Verb {
 
 const std::vector<Verb> kVerbs{
     {"run",
-     {"--scene", "--set", "--display", "--haptics", "--overlay", "--motion", "--motion-axes", "--seed",
-      "--seconds", "--record", "--fps", "--clock", "--run-dir"}},
+     {"--scene", "--set", "--display", "--haptics", "--overlay", "--presets", "--preset-s", "--motion",
+      "--motion-axes", "--seed", "--seconds", "--record", "--fps", "--clock", "--run-dir", "--state-dir"}},
     {"simulate", {"SCENE", "--set", "--seconds", "--steps", "--out", "--plan"}},
     {"bench",
      {"SCENE", "--scene", "--set", "--grid", "--effects", "--csv", "--plot", "--paper", "--repeats",
@@ -21,6 +21,7 @@ const std::vector<Verb> kVerbs{
     {"accuracy",
      {"--validate", "--list", "--case", "--full", "--grid", "--set", "--json", "--csv", "--sweep", "--shard",
       "--merge", "--out"}},
+    {"tune", {"SCENE", "--scene", "--set", "--state-dir", "--show"}},
     {"check-config", {"FILE"}},
     {"print-config", {"SCENE", "--set", "--origin"}},
 };
