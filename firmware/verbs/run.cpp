@@ -414,7 +414,8 @@ void Run::real() {
     end_loop.reset();
     if (device_) device_name_ = device_->describe();
     drain_trace();
-    clock_s_ = wall_s_ = Seconds(clock.now()).count();
+    now = clock.now();  // that of the last tick
+    clock_s_ = wall_s_ = Seconds(now).count();
     report(now, true);
     if (loop_ && !grant.fifo)
         fmt::print(
