@@ -10,6 +10,7 @@
 #include "config/scene.h"
 #include "firmware/destination.h"
 #include "firmware/graphics.h"
+#include "firmware/hand_orders.h"
 #include "firmware/haptic/loop.h"
 #include "firmware/haptic/realtime.h"
 #include "firmware/progress.h"
@@ -20,11 +21,8 @@
 #include "firmware/status.h"
 #include "firmware/stopwatch.h"
 #include "firmware/text_file.h"
-#include "firmware/verbs/verbs.h"
+#include "firmware/verbs/run_device.h"
 #include "firmware/views.h"
-#include "hal/haptic/emulated/make_emulated_falcon.h"
-#include "hal/haptic/emulated/person_motion.h"
-#include "hal/haptic/emulated/recorded_motion.h"
 
 namespace eddy {
 namespace {
@@ -40,8 +38,6 @@ constexpr Seconds kShortestStep{0.001};
 constexpr std::size_t kSamples = 200;
 /// While nothing moves the fluid is computed this often, to see whether that is still so.
 constexpr Instant kRestPeriod = 500ms;
-/// A latched force comes back by itself once its cause has been gone for this long; it is brought in gently.
-constexpr Instant kLatchRest = 3s;
 /// One step in this many is timed stage by stage and diagnosed; both make it wait for the GPU.
 constexpr long kMeasureEvery = 20;
 /// Recording pictures may take this share of the time; the fluid has the rest.
@@ -59,41 +55,6 @@ void stop_on_signals() {
 void require_no_screen(DisplayChoice choice) {
     if (choice == DisplayChoice::Kms)
         throw InputError("--display kms: this version cannot drive a screen yet; use headless, or auto");
-}
-
-emulated::AxisMap axes_of(const RunOptions& options) {
-    try {
-        return emulated::AxisMap(options.motion_axes);
-    } catch (const std::invalid_argument& e) {
-        throw InputError(fmt::format("--motion-axes: {}", e.what()));
-    }
-}
-
-/// The device the visitor holds; null when there is to be none.
-std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoice choice) {
-    if (choice == HapticsChoice::None && !options.motion.empty())
-        throw InputError("--motion: there is no hand to move; leave out --haptics none");
-    const emulated::AxisMap axes = axes_of(options);
-    if (choice == HapticsChoice::None) return nullptr;
-    if (choice == HapticsChoice::Falcon)
-        throw InputError(
-            "--haptics falcon: this version cannot drive a real Falcon yet; use emulated, or auto");
-    emulated::EmulatedFalconSettings settings;
-    std::unique_ptr<emulated::HandMotion> motion;
-    if (options.motion.empty()) {
-        emulated::PersonSettings person;
-        person.seed = options.seed;
-        motion = std::make_unique<emulated::PersonMotion>(person);
-    } else {
-        settings.plant.hand = emulated::Hand::OnPath;  // a recording is what a hand did, whatever it felt
-        try {
-            motion = std::make_unique<emulated::RecordedMotion>(read_text_file(options.motion),
-                                                                options.motion, axes, emulated::AtEnd::Loop);
-        } catch (const std::runtime_error& e) {
-            throw InputError(fmt::format("--motion: {}", e.what()));
-        }
-    }
-    return emulated::make_emulated_falcon(std::move(motion), settings);
 }
 
 /// Whether something will move though nothing does now, or moves that the fluid as a whole hardly shows: such a show never rests.
@@ -196,7 +157,6 @@ class Run {
     void record_frame(Instant now);
     CostFigures cost() const;
     void drain_trace();
-    void release_latch(Instant now);
     void report(Instant now, bool force = false);
 
     RunOptions options_;
@@ -220,8 +180,7 @@ class Run {
     Views views_;
     std::optional<Recorder> recorder_;
     std::filesystem::path status_file_;
-    HapticOrders orders_;
-    Instant latched_since_{0};
+    HandOrders orders_{exchange_};
     Instant status_due_{0}, frame_due_{0};
     bool recording_failed_ = false;
     double sent_most_n_ = 0.0;
@@ -234,10 +193,7 @@ void Run::give_orders() {
     Quality coarsest = quality_.first();
     for (const Quality& quality : quality_.all())
         if (quality.cells < coarsest.cells) coarsest = quality;
-    const std::uint64_t resets = orders_.resets;
-    orders_ = orders_for(with_quality(scene_, coarsest), show_.fluid().setup());
-    orders_.resets = resets;
-    exchange_.orders.publish(orders_);
+    orders_.give(orders_for(with_quality(scene_, coarsest), show_.fluid().setup()));
 }
 
 void Run::warm_up() {
@@ -337,20 +293,6 @@ void Run::record_frame(Instant now) {
     }
 }
 
-void Run::release_latch(Instant now) {
-    const GateReason reason = loop_report_.reason;
-    const bool latched = reason == GateReason::DeviceSilent || reason == GateReason::NotFinite;
-    if (!latched || loop_report_.device != HapticState::Ready) {
-        latched_since_ = now;
-        return;
-    }
-    if (now - latched_since_ < kLatchRest) return;
-    latched_since_ = now;
-    if (reason == GateReason::NotFinite) show_.reset();
-    ++orders_.resets;
-    exchange_.orders.publish(orders_);
-}
-
 void Run::drain_trace() {
     while (const std::size_t count = trace_.drain(ticks_)) {
         for (std::size_t i = 0; i < count; ++i)
@@ -361,7 +303,10 @@ void Run::drain_trace() {
 
 void Run::report(Instant now, bool force) {
     loop_report_ = exchange_.report.newest();
-    release_latch(now);
+    if (const auto cause = orders_.cause_gone(now, loop_report_)) {
+        if (*cause == GateReason::NotFinite) show_.reset();
+        orders_.release_latch();
+    }
     if (options_.seconds)
         progress_.show(Seconds(now).count(), *options_.seconds,
                        fmt::format("{} fluid steps", show_.figures().steps));

@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+
+#include "firmware/haptic/exchange.h"
+#include "hal/clock.h"
+
+namespace eddy {
+
+/// What the exhibit asks of the haptic loop: where the hand may go and at what gain; and that a force that was latched comes back
+/// by itself, brought in gently, once its cause has been gone for a while.
+class HandOrders {
+  public:
+    static constexpr Instant kLatchRest = std::chrono::seconds(3);
+
+    explicit HandOrders(HapticExchange& exchange) : exchange_(exchange) {}
+
+    /// From now on; but for the count of resets, which is kept here.
+    void give(const HapticOrders& orders);
+    /// With each report: the cause of a latch, if it has been gone for so long that the latch may be released.
+    std::optional<GateReason> cause_gone(Instant now, const LoopReport& report);
+    void release_latch();
+
+  private:
+    HapticExchange& exchange_;
+    HapticOrders orders_;
+    Instant latched_since_{0};
+};
+
+}  // namespace eddy
