@@ -1,0 +1,84 @@
+#include "firmware/stability/ledger.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "firmware/fluid_setup.h"
+
+namespace eddy::stability {
+namespace {
+
+Scene scene_of(const std::string& more) {
+    return read_scene(
+               "[tank]\nsize_m = [1.0, 1.0, 1.0]\ncells = [8, 8, 8]\n[fluid]\ndensity_kg_m3 = 2.0\n" + more,
+               "test.toml")
+        .scene;
+}
+
+TEST(Ledger, JustifiesNothingWhereNothingActs) {
+    const Scene scene = scene_of("");
+    Ledger ledger(scene, fluid_setup(scene));
+    ledger.add(0.1, 0.1, {}, {});
+    EXPECT_EQ(ledger.justified().speed_m_s, 0.0);
+    EXPECT_EQ(ledger.justified().work_j, 0.0);
+}
+
+TEST(Ledger, CountsTheWorkOfABodyAgainstItsLoad) {
+    const Scene scene = scene_of("[[body]]\nradius_m = 0.1\ncentre_m = [0.5, 0.5, 0.5]\nmotion = \"held\"\n");
+    Ledger ledger(scene, fluid_setup(scene));
+    gles::BodyState moving;
+    moving.velocity_m_s = {0.0, 3.0, 0.0};
+    ledger.add(0.1, 0.1, {moving}, {{{0.0, -10.0, 0.0}, {}}});
+    EXPECT_DOUBLE_EQ(ledger.justified().speed_m_s, 3.0);
+    const double volume = 4.0 / 3.0 * std::numbers::pi * 1e-3;
+    const double swept = volume;  // pi (0.1 m)^2 * 0.3 m would be more than there is of it
+    EXPECT_NEAR(ledger.justified().work_j, 3.0 + 0.5 * 2.0 * 9.0 * (volume + swept), 1e-9);
+    // At rest again: what it displaces stands, the speed it once had remains on record.
+    ledger.add(0.2, 0.1, {{}}, {{}});
+    EXPECT_NEAR(ledger.justified().work_j, 3.0 + 0.5 * 2.0 * 9.0 * swept, 1e-9);
+    EXPECT_DOUBLE_EQ(ledger.justified().speed_m_s, 3.0);
+}
+
+TEST(Ledger, AFreeBodyCannotJustifyARunaway) {
+    const Scene scene = scene_of(
+        "gravity_m_s2 = [0.0, -10.0, 0.0]\n"
+        "[[body]]\nradius_m = 0.1\ncentre_m = [0.5, 0.5, 0.5]\nmotion = \"free\"\ndensity_kg_m3 = 3.0\n");
+    Ledger ledger(scene, fluid_setup(scene));
+    gles::BodyState runaway;
+    runaway.velocity_m_s = {100.0, 0.0, 0.0};
+    ledger.add(0.1, 0.1, {runaway}, {{}});
+    // (rho_b - rho) / (rho_b + rho / 2) = 1/4: falls through 1 m at sqrt(2 * 2.5)
+    EXPECT_NEAR(ledger.justified().speed_m_s, std::sqrt(5.0), 1e-9);
+}
+
+TEST(Ledger, AddsUpWhatSourcesGive) {
+    const Scene scene = scene_of(
+        "[smoke]\n[temperature]\n[[source]]\ncentre_m = [0.5, 0.5, 0.5]\nradius_m = 0.1\nsmoke_per_s = 4.0\n"
+        "temperature_k_per_s = -20.0\nstop_s = 0.2\n");
+    Ledger ledger(scene, fluid_setup(scene));
+    for (int i = 1; i <= 4; ++i) ledger.add(0.1 * i, 0.1, {}, {});
+    EXPECT_NEAR(ledger.justified().smoke_added.high, 0.8, 1e-9);
+    EXPECT_NEAR(ledger.justified().temperature_added_k.low, -4.0, 1e-9);
+    EXPECT_EQ(ledger.justified().temperature_added_k.high, 0.0);
+}
+
+TEST(Ledger, BuoyancyJustifiesTheFallOfWhatIsHeavier) {
+    const Scene scene =
+        scene_of("gravity_m_s2 = [0.0, -10.0, 0.0]\n[smoke]\nweight = 0.1\ninitial = \"0.5 * y\"\n");
+    Ledger ledger(scene, fluid_setup(scene));
+    ledger.add(0.1, 0.1, {}, {});
+    EXPECT_NEAR(ledger.justified().speed_m_s, std::sqrt(10.0 * 0.05 * 1.0), 1e-9);
+    EXPECT_NEAR(ledger.justified().rest_speed_m_s, std::sqrt(10.0), 1e-9);
+}
+
+TEST(Ledger, LiftIsWhatBodiesFeelAtRest) {
+    const Scene scene =
+        scene_of("gravity_m_s2 = [0.0, -10.0, 0.0]\n[[body]]\nradius_m = 0.1\ncentre_m = [0.5, 0.5, 0.5]\n");
+    const std::vector<gles::Load> loads = Ledger(scene, fluid_setup(scene)).at_rest();
+    EXPECT_NEAR(loads.at(0).force_n.y, 2.0 * 4.0 / 3.0 * std::numbers::pi * 1e-3 * 10.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace eddy::stability
