@@ -56,6 +56,7 @@ struct CommandLine {
     BenchOptions bench;
     TuneOptions tune;
     AccuracyOptions accuracy;
+    StabilityOptions stability;
     std::string check_file, print_scene;
     std::vector<std::string> print_set;
     bool print_origin = false, print_keys = false;
@@ -74,6 +75,7 @@ struct CommandLine {
         add_simulate();
         add_bench();
         add_accuracy();
+        add_stability();
         add_tune();
         auto* check =
             app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
@@ -257,6 +259,44 @@ struct CommandLine {
             "  eddy accuracy --merge part1 part2 part3 --out sweep    tables and plots of all parts");
     }
 
+    void add_stability() {
+        auto* verb = app.add_subcommand(
+            "stability",
+            "Hard cases: what a hand, a file or a driver can do to the fluid, and whether it stands it");
+        verb->option_defaults()->take_last();
+        verb->add_flag("--list", stability.list, "list the cases: what each provokes, and what it wants");
+        auto* quick =
+            verb->add_flag("--quick", stability.quick, "60 steps of each on 8^3 cells (three minutes)");
+        auto* full = verb->add_flag(
+            "--full", stability.full,
+            "on four grids up to 64^3, the longest runs and every pair of cases as well (a day in software)");
+        quick->excludes(full);
+        verb->add_option("--case", stability.cases,
+                         "only these: names or numbers, as 4,piston; two at once: stall+cup")
+            ->delimiter(',')
+            ->take_all();
+        verb->add_option("--grid", stability.grids, "on these grids, as 8,25 or 33x47x29 [8,25]")
+            ->delimiter(',')
+            ->take_all();
+        auto* shard =
+            verb->add_option("--shard", stability.shard,
+                             "only part I of N: give each machine its own part and --out, then --merge")
+                ->type_name("I/N");
+        auto* resume =
+            verb->add_flag("--resume", stability.resume, "go on where the stability.csv in --out ends");
+        auto* merge = verb->add_option("--merge", stability.merge,
+                                       "put the parts of a matrix together: the folders they were written to")
+                          ->type_name("FOLDER...")
+                          ->take_all()
+                          ->expected(1, 100000);
+        auto* out =
+            verb->add_option("--out", stability.out, "folder for stability.csv, report.md, heat_map.png");
+        resume->needs(out);
+        merge->needs(out);
+        merge->excludes(shard)->excludes(resume);
+        verb->footer("Exit status 1 if a cell is red.");
+    }
+
     /// CLI11 would call an unknown verb a missing one.
     void require_verb(int argc, char** argv) const {
         if (argc < 2 || argv[1][0] == '-') return;
@@ -281,6 +321,7 @@ struct CommandLine {
             return bench.paper.empty() ? eddy::bench(bench) : bench_paper(bench);
         }
         if (app.got_subcommand("accuracy")) return act_on_accuracy();
+        if (app.got_subcommand("stability")) return test_stability(stability);
         if (app.got_subcommand("tune")) return eddy::tune(tune);
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);

@@ -56,6 +56,20 @@ int validate(const AccuracyOptions& options);
 int sweep_accuracy(const AccuracyOptions& options);
 int merge_sweeps(const std::vector<std::string>& folders, const std::string& out);
 
+struct StabilityOptions {
+    bool list = false;               ///< say which cases there are, and stop
+    bool quick = false;              ///< few steps on a small grid
+    bool full = false;               ///< everything
+    std::vector<std::string> cases;  ///< names or numbers, "a+b" for two at once; empty: all
+    std::vector<std::string> grids;  ///< as 25 or 33x47x29; empty: those of quick, full or neither
+    std::string shard;               ///< "3/8": only that part; empty: all of it
+    bool resume = false;             ///< go on where the CSV in `out` ends
+    std::vector<std::string> merge;  ///< folders of all parts, to be put together
+    std::string out;                 ///< folder for CSV, report and picture; empty: none
+};
+/// 1 too if a cell is red.
+int test_stability(const StabilityOptions& options);
+
 enum class ClockChoice { Real, Stepped };
 
 struct RunOptions {

@@ -1,0 +1,146 @@
+#include <cmath>
+#include <numbers>
+
+#include "firmware/stability/case.h"
+#include "firmware/stability/criteria.h"
+#include "firmware/stability/scene_parts.h"
+
+namespace eddy::stability {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// 8: a plate of 0.3 cells in place of the ball, turned about z.
+void plate(Scene& s, double angle_deg) {
+    const double side = shortest_side_m(s);
+    Scene::Body body = box("plate", 0.5 * s.tank.size_m, {0.3 * s.tank.cell_m(), 0.5 * side, 0.5 * side});
+    body.angle_deg = angle_deg;
+    ball(s) = body;
+}
+
+Case thin_plate(const char* name, const char* title, double angle_deg) {
+    return {.number = 8,
+            .name = name,
+            .title = title,
+            .provokes = "fluid leaks through what no cell sees, the force flickers",
+            .wants = "the fluid gives back no more energy than it was given",
+            .change =
+                [angle_deg](Scene& s) {
+                    plate(s, angle_deg);
+                    ball(s).oscillation = swing({0.15 * shortest_side_m(s), 0.0, 0.0}, 0.5);
+                },
+            .complaint = gives_back_no_more(),
+            .calm_share = 0.0};
+}
+
+/// 9: nearly or really nothing in the hand.
+Case tiny(const char* name, const char* title, double radius_cells) {
+    return {.number = 9,
+            .name = name,
+            .title = title,
+            .provokes = "a stencil without a solid, 0 by 0 in the shares of faces",
+            .change = [radius_cells](Scene& s) { ball(s).radius_m = radius_cells * s.tank.cell_m(); }};
+}
+
+/// 13: what the first body is said to do is not what it is seen to do.
+Case liar(const char* name, const char* title, std::function<void(const Moment&, gles::BodyState&)> says) {
+    return {.number = 13,
+            .name = name,
+            .title = title,
+            .provokes = "a flux through the surface that nothing explains: energy from nowhere",
+            .drive = Drive::Steps,
+            .script = [](Moment& m) { m.hand_m = m.middle_m(); },
+            .bodies =
+                [says](const Moment& m, std::vector<gles::BodyState>& bodies) {
+                    if (m.disturbs() && !bodies.empty()) says(m, bodies[0]);
+                }};
+}
+
+/// 33: an orientation that is none.
+Case crooked(const char* name, const char* title, glm::dquat orientation) {
+    return {.number = 33,
+            .name = name,
+            .title = title,
+            .provokes = "a distance that is none: normals that are not, areas that are wrong",
+            .wants = "loads stay finite",
+            .drive = Drive::Steps,
+            .change =
+                [](Scene& s) {
+                    const double side = shortest_side_m(s);
+                    ball(s).shape = BodyShape::Box;
+                    ball(s).size_m = glm::dvec3(0.4, 0.3, 0.2) * side;
+                },
+            .bodies =
+                [orientation](const Moment& m, std::vector<gles::BodyState>& bodies) {
+                    if (m.disturbs() && !bodies.empty()) bodies[0].orientation = orientation;
+                },
+            .complaint = loads_stay_finite()};
+}
+
+}  // namespace
+
+std::vector<Case> body_cases() {
+    std::vector<Case> cases;
+    cases.push_back(thin_plate("plate-broadside", "a plate of 0.3 cells swings flat side ahead", 0.0));
+    cases.push_back(thin_plate("plate-edge-on", "a plate of 0.3 cells swings edge ahead", 90.0));
+    cases.push_back({.number = 8,
+                     .name = "plate-turning",
+                     .title = "a plate of 0.3 cells turns slowly in a stream",
+                     .provokes = "the force jumps when an edge passes a cell",
+                     .wants = "from step to step the force changes by less than a quarter of its peak",
+                     .change =
+                         [](Scene& s) {
+                             plate(s, 0.0);
+                             ball(s).spin_rad_s = {0.0, 0.0, 0.5};
+                             stream_through(s, vector_of({0.1, 0.0, 0.0}));
+                         },
+                     .complaint = force_is_continuous(0, 0.25, 20),
+                     .calm_share = 0.0});
+    cases.push_back(tiny("fifth-of-a-cell", "the ball in the hand has a radius of a fifth of a cell", 0.2));
+    cases.push_back(tiny("radius-0", "the ball in the hand has no radius", 0.0));
+    cases.push_back({.number = 12,
+                     .name = "cross-through",
+                     .title = "two balls touch, overlap, cross and part",
+                     .provokes = "solid that is counted twice, a pocket between the two",
+                     .wants = "the force on neither jumps by more than half its peak",
+                     .change =
+                         [](Scene& s) {
+                             const double radius = 0.15 * shortest_side_m(s), way = 0.25 * s.tank.size_m.x;
+                             const glm::dvec3 middle = 0.5 * s.tank.size_m;
+                             ball(s) = sphere("one", middle, radius);
+                             ball(s).oscillation = swing({way, 0.0, 0.0}, 0.2, 0.5 * kPi);
+                             s.bodies.push_back(
+                                 sphere("other", middle + glm::dvec3(0.0, 0.5 * radius, 0.0), radius));
+                             s.bodies.back().oscillation = swing({-way, 0.0, 0.0}, 0.2, 0.5 * kPi);
+                         },
+                     .complaint = all_of({force_is_continuous(0, 0.5, 20), force_is_continuous(1, 0.5, 20)}),
+                     .calm_share = 0.0});
+    cases.push_back(liar("spin-not-shown", "the ball stands still and is said to move at 0.5 m/s and spin",
+                         [](const Moment&, gles::BodyState& ball) {
+                             ball.velocity_m_s = {0.5, 0.0, 0.0};
+                             ball.spin_rad_s = {0.0, 50.0, 0.0};
+                         }));
+    cases.push_back(liar("motion-not-said", "the ball swings and is said to stand still",
+                         [](const Moment& m, gles::BodyState& ball) {
+                             ball.centre_m.x +=
+                                 0.2 * shortest_side_m(*m.scene) * std::sin(2.0 * kPi * m.time_s);
+                         }));
+    cases.push_back(
+        crooked("long-quaternion", "the box has an orientation of length 3", {3.0, 0.0, 0.0, 0.0}));
+    cases.push_back(crooked("no-quaternion", "the box has an orientation of length 0", {0.0, 0.0, 0.0, 0.0}));
+    cases.push_back({.number = 33,
+                     .name = "needle",
+                     .title = "an ellipsoid twenty times as long as thick",
+                     .provokes = "a distance that is off by the order of itself",
+                     .wants = "loads stay finite",
+                     .change =
+                         [](Scene& s) {
+                             const double side = shortest_side_m(s);
+                             ball(s).shape = BodyShape::Ellipsoid;
+                             ball(s).radii_m = glm::dvec3(0.3, 0.015, 0.3) * side;
+                         },
+                     .complaint = loads_stay_finite()});
+    return cases;
+}
+
+}  // namespace eddy::stability

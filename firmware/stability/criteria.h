@@ -1,0 +1,50 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "firmware/stability/history.h"
+
+namespace eddy::stability {
+
+// What single cases want besides the rule. Each gives a criterion that says in words what is wrong, or nothing.
+using Criterion = std::function<std::optional<std::string>(const History&)>;
+
+/// |p| <= 100 rho (U^2 + U L / dt): a hundred times what it takes to bring the tank to the speed U in a step.
+Criterion pressure_bounded(double speed_m_s);
+/// The largest |p| of the last quarter is at most 1.5 times that of the quarter before.
+Criterion pressure_levels_off();
+/// The same of kinetic energy, at most 1.1 times.
+Criterion energy_levels_off();
+/// Kinetic energy is never more than 0.1 % above what it was at any look before.
+Criterion energy_never_rises();
+/// The fastest speed is never more than 0.1 % above that at the start.
+Criterion speed_never_rises();
+/// speed <= 1.5 sqrt(2 g' L), g' being what smoke and heat in the tank make of gravity; `lightness` for a unit of heat.
+Criterion no_faster_than_a_fall(double expansion_1_k);
+/// Bodies do no negative work in all: the fluid gives back no more than it got.
+Criterion gives_back_no_more();
+/// What flows in through the walls flows out, but for this share.
+Criterion volume_balances(double share);
+/// From one step to the next the force on body `i` changes by less than this share of its peak, after the first `settling`.
+Criterion force_is_continuous(std::size_t i, double share, long settling);
+/// The force on the hand is 0 so long after the fluid last answered, as long as it does not answer.
+Criterion hand_let_go(double within_s);
+/// This many seconds after the last disturbance the force is down to 2 % of its peak.
+Criterion force_recovers(double within_s);
+/// After each reset forces are the same, bit for bit.
+Criterion same_after_each_reset();
+/// No force from a body that is not in the tank.
+Criterion no_force_outside();
+/// Energy is down to a tenth by this step.
+Criterion energy_decays(long by_step);
+/// After each fault no texel is left that is not finite; loads are finite all the time.
+Criterion loads_stay_finite();
+/// A step of no time gives the force of the step before it.
+Criterion no_time_no_news();
+/// Beside the line of this frequency and its multiples no line of the force on body 0 is higher than 5 % of it.
+Criterion no_other_lines(double frequency_hz);
+/// All of these.
+Criterion all_of(std::vector<Criterion> criteria);
+
+}  // namespace eddy::stability

@@ -1,0 +1,45 @@
+#pragma once
+#include <vector>
+
+#include "firmware/stability/fields.h"
+
+namespace eddy::stability {
+
+/// What came of a trial, step by step, for the criteria of single cases.
+struct History {
+    struct Step {
+        double time_s = 0.0;  ///< at its end
+        double dt_s = 0.0;
+        bool disturbed = true;
+        long resets = 0;                     ///< so far
+        std::vector<gles::Load> loads = {};  ///< without what bodies feel at rest
+        std::vector<gles::BodyState> bodies = {};
+    };
+    /// What was found in the fields after a step.
+    struct Look {
+        long step = 0;  ///< from 0
+        double speed_m_s = 0.0;
+        double energy_j = 0.0;
+        FieldRange pressure_pa = {};
+        double mean_pressure_pa = 0.0;
+        FieldRange smoke = {}, temperature_k = {};
+        double in_m3_s = 0.0, net_m3_s = 0.0;  ///< through the walls: what comes in; that less what goes out
+        long non_finite = 0;
+    };
+    /// What the hand got at a tick.
+    struct Tick {
+        double time_s = 0.0;
+        double force_n = 0.0;
+        bool answered = true;  ///< steps since reached the hand
+    };
+    Tank tank;
+    double gravity_m_s2 = 0.0;
+    long planned_steps = 0;  ///< it may have been cut short
+    std::vector<Step> steps = {};
+    std::vector<Look> looks = {};
+    std::vector<Tick> ticks = {};
+};
+
+History::Look look_at(const Tank& tank, const Fields& fields, long step);
+
+}  // namespace eddy::stability

@@ -1,0 +1,205 @@
+#include "firmware/stability/matrix.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "firmware/input_error.h"
+
+namespace eddy::stability {
+namespace {
+
+constexpr long kQuickSteps = 60;
+
+/// Those that everybody's tests try at once: one of each kind, each hard by itself.
+constexpr const char* kQuickPairs[] = {"stall+inflow-20hz",          "teleport-50+late-answers",
+                                       "covers-all+nan-in-pressure", "piston+jitter",
+                                       "plate-turning+friction-10",  "courant-50+cross-through"};
+
+std::vector<const Case*> pair_named(const std::string& name) {
+    const std::size_t plus = name.find('+');
+    std::vector<const Case*> both;
+    for (const std::string& one : {name.substr(0, plus), name.substr(plus + 1)}) {
+        const std::vector<const Case*> found = cases_named(one);
+        if (found.size() != 1)
+            throw InputError(fmt::format("--case {}: of pairs give names: {} is several cases", name, one));
+        both.push_back(found.front());
+    }
+    for (const Case* one : both)
+        if (one->alone)
+            throw InputError(fmt::format("--case {}: {} can only be tried alone", name, one->name));
+    return both;
+}
+
+/// Whether it is worth having beside any other: not too long, and not about a grid of its own.
+bool pairs_up(const Case& one) {
+    return !one.alone && one.grids.empty() && !one.full_only && one.steps <= 500;
+}
+
+std::vector<std::vector<const Case*>> asked_for(const Order& order) {
+    std::vector<std::vector<const Case*>> rows;
+    for (const std::string& name : order.cases) {
+        if (name.find('+') != std::string::npos)
+            rows.push_back(pair_named(name));
+        else
+            for (const Case* one : cases_named(name)) rows.push_back({one});
+    }
+    if (!order.cases.empty()) return rows;
+    for (const Case& one : all_cases())
+        if (!one.full_only || order.extent == Extent::Full) rows.push_back({&one});
+    if (order.extent == Extent::Full) {
+        for (std::size_t i = 0; i < all_cases().size(); ++i)
+            for (std::size_t j = i + 1; j < all_cases().size(); ++j)
+                if (pairs_up(all_cases()[i]) && pairs_up(all_cases()[j]))
+                    rows.push_back({&all_cases()[i], &all_cases()[j]});
+    } else {
+        for (const char* name : kQuickPairs) rows.push_back(pair_named(name));
+    }
+    return rows;
+}
+
+std::vector<glm::ivec3> grids_for(const std::vector<const Case*>& row, const Order& order) {
+    std::vector<glm::ivec3> grids;
+    for (const std::string& name : order.grids) grids.push_back(grid_named(name));
+    if (!grids.empty()) return grids;
+    if (row.size() > 1) return {glm::ivec3(25)};
+    if (!row.front()->grids.empty()) return row.front()->grids;
+    if (order.extent == Extent::Quick) return {glm::ivec3(8)};
+    if (order.extent == Extent::Usual || row.front()->small_only) return {glm::ivec3(8), glm::ivec3(25)};
+    return {glm::ivec3(8), glm::ivec3(25), glm::ivec3(33, 47, 29), glm::ivec3(64)};
+}
+
+/// A field of a line of CSV.
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+    return result + "\"";
+}
+
+constexpr const char* kHead =
+    "case,name,grid,effort,steps,pass,reason,kinetic_energy_ratio,largest_force_n,recovery_s,non_finite_"
+    "texels,"
+    "wall_s\n";
+
+std::vector<std::string> fields_of(const std::string& line) {
+    std::vector<std::string> fields(1);
+    bool inside = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '"' && inside && i + 1 < line.size() && line[i + 1] == '"')
+            fields.back() += line[++i];
+        else if (line[i] == '"')
+            inside = !inside;
+        else if (line[i] == ',' && !inside)
+            fields.emplace_back();
+        else
+            fields.back() += line[i];
+    }
+    return fields;
+}
+
+Result result_from(const std::vector<std::string>& f) {
+    Result result{std::stoi(f.at(0)), f.at(1), f.at(2), f.at(3)};
+    Verdict& verdict = result.outcome.verdict;
+    result.outcome.steps = std::stol(f.at(4));
+    verdict.pass = f.at(5) == "yes";
+    verdict.reason = f.at(6);
+    verdict.kinetic_energy_ratio = std::stod(f.at(7));
+    verdict.largest_force_n = std::stod(f.at(8));
+    if (!f.at(9).empty()) verdict.recovery_s = std::stod(f.at(9));
+    verdict.non_finite = std::stol(f.at(10));
+    result.outcome.wall_s = std::stod(f.at(11));
+    return result;
+}
+
+}  // namespace
+
+std::string Cell::name() const {
+    std::string name;
+    for (const Case* one : cases) name += (name.empty() ? "" : "+") + one->name;
+    return name;
+}
+
+double Cell::work() const {
+    const long steps = std::min(most_steps, cases.size() > 1 ? kStepsOfPair : cases.front()->steps);
+    const glm::dvec3 n(trial.cells);
+    // A fluid's shaders are compiled in the time of some steps; of small grids the passes cost, not the cells.
+    return (trial.effort == Effort::Default ? 1.5 : 1.0) * static_cast<double>(steps + 50) *
+           (n.x * n.y * n.z + 4000.0);
+}
+
+std::vector<Cell> cells_of(const Order& order) {
+    const long most_steps = order.extent == Extent::Quick ? kQuickSteps : std::numeric_limits<long>::max();
+    std::vector<Cell> cells;
+    for (const std::vector<const Case*>& row : asked_for(order))
+        for (const glm::ivec3& grid : grids_for(row, order))
+            for (const Effort effort : {Effort::Default, Effort::Least}) {
+                // Pairs are many; the solver's best is what the exhibit runs.
+                if (row.size() > 1 && effort == Effort::Least) continue;
+                cells.push_back({row, {grid, effort}, most_steps});
+            }
+    return cells;
+}
+
+bool Result::is_of(const Cell& cell) const {
+    return name == cell.name() && grid == grid_name(cell.trial.cells) && effort == to_word(cell.trial.effort);
+}
+
+Result result_of(const Cell& cell, const Outcome& outcome) {
+    return {cell.cases.front()->number, cell.name(), grid_name(cell.trial.cells),
+            std::string(to_word(cell.trial.effort)), outcome};
+}
+
+std::string csv_of(std::span<const Result> results) {
+    std::string text = kHead;
+    for (const Result& r : results) {
+        const Verdict& v = r.outcome.verdict;
+        text += fmt::format("{},{},{},{},{},{},{},{:.6g},{:.6g},{},{},{:.3f}\n", r.number, r.name, r.grid,
+                            r.effort, r.outcome.steps, v.pass ? "yes" : "no", quoted(v.reason),
+                            v.kinetic_energy_ratio, v.largest_force_n,
+                            v.recovery_s ? fmt::format("{:.3f}", *v.recovery_s) : "", v.non_finite,
+                            r.outcome.wall_s);
+    }
+    return text;
+}
+
+std::vector<Result> results_from_csv(const std::string& text, const std::filesystem::path& file) {
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    std::vector<Result> results;
+    if (line + "\n" != kHead)
+        throw InputError(fmt::format("{}: is not what eddy stability writes", file.string()));
+    for (int number = 2; std::getline(lines, line); ++number) {
+        try {
+            results.push_back(result_from(fields_of(line)));
+        } catch (const std::logic_error&) {  // a field that is missing, or a number that is none
+            throw InputError(fmt::format("{}:{}: is not what eddy stability writes", file.string(), number));
+        }
+    }
+    return results;
+}
+
+std::vector<Result> merged(std::span<const Cell> cells, std::span<const std::vector<Result>> parts) {
+    std::vector<Result> all;
+    for (const Cell& cell : cells) {
+        std::vector<const Result*> found;
+        for (const std::vector<Result>& part : parts)
+            for (const Result& result : part)
+                if (result.is_of(cell)) found.push_back(&result);
+        const std::string what = fmt::format("{} on {}, {} effort", cell.name(), grid_name(cell.trial.cells),
+                                             to_word(cell.trial.effort));
+        if (found.empty())
+            throw InputError(
+                fmt::format("--merge: none of these folders holds {}: give all parts, and --quick, --full, "
+                            "--case and --grid as they had it",
+                            what));
+        if (found.size() > 1)
+            throw InputError(fmt::format("--merge: {} is there {} times", what, found.size()));
+        all.push_back(*found.front());
+    }
+    return all;
+}
+
+}  // namespace eddy::stability

@@ -1,0 +1,56 @@
+#pragma once
+#include <filesystem>
+#include <span>
+
+#include "firmware/stability/trial.h"
+
+namespace eddy::stability {
+
+enum class Extent {
+    Quick,  ///< few steps on 8^3 cells, and a handful of pairs: some minutes
+    Usual,  ///< all cases but the longest, to their end, on 8^3 and 25^3 cells
+    Full    ///< everything, on four grids, and every pair
+};
+
+/// What the user asked for.
+struct Order {
+    Extent extent = Extent::Usual;
+    std::vector<std::string> cases = {};  ///< names or numbers; "a+b": both at once; none: all
+    std::vector<std::string> grids = {};  ///< none: those of the extent
+};
+
+/// One cell of the matrix.
+struct Cell {
+    std::vector<const Case*> cases;  ///< one, or two at once
+    Trial trial;
+    long most_steps;
+    /// "stall", "stall+corner"
+    std::string name() const;
+    /// What it may cost, in whatever unit: cells times steps.
+    double work() const;
+};
+
+/// All cells, row by row. Throws InputError for cases and grids that do not exist.
+std::vector<Cell> cells_of(const Order& order);
+
+/// A cell that has been tried.
+struct Result {
+    int number = 0;  ///< of the case; of a pair, of its first
+    std::string name = {};
+    std::string grid = {};
+    std::string effort = {};
+    Outcome outcome = {};
+    bool is_of(const Cell& cell) const;
+};
+Result result_of(const Cell& cell, const Outcome& outcome);
+
+/// case, name, grid, effort, steps, pass, reason, kinetic energy ratio, largest force, recovery time, non-finite texels, wall
+/// time: a line for each result, after a line of names.
+std::string csv_of(std::span<const Result> results);
+/// What csv_of() wrote; `file` is what complaints call it. Throws InputError.
+std::vector<Result> results_from_csv(const std::string& text, const std::filesystem::path& file);
+
+/// Results of parts of one matrix, in the order of its cells. Throws InputError if a cell is there twice or not at all.
+std::vector<Result> merged(std::span<const Cell> cells, std::span<const std::vector<Result>> parts);
+
+}  // namespace eddy::stability

@@ -1,0 +1,101 @@
+#include "firmware/stability/rig.h"
+
+#include "firmware/fluid_setup.h"
+#include "firmware/show.h"
+
+namespace eddy::stability {
+namespace {
+
+/// The fluid alone, given whatever a case likes.
+class Steps final : public Rig {
+  public:
+    Steps(gles::Gpu& gpu, const Scene& scene, ChangeBodies change)
+        : fluid_(gles::make_fluid(gpu, fluid_setup(scene))), motions_(scene), change_(std::move(change)) {
+        loads_.resize(scene.bodies.size());
+    }
+
+    void step(const Moment& moment, const PoseSnapshot&, Instant now) override {
+        if (moment.flow) {
+            std::vector<glm::vec3> u = fluid_->velocity();
+            moment.flow(u);
+            fluid_->set_velocity(u);
+        }
+        std::vector<gles::BodyState> bodies = motions_.at(time_s_ + moment.dt_s, moment.dt_s);
+        time_s_ += moment.dt_s;
+        if (const auto held = motions_.held()) {
+            gles::BodyState& body = bodies[*held];
+            body.centre_m = moment.hand_m;
+            body.velocity_m_s = at_m_ ? (moment.hand_m - *at_m_) / moment.dt_s : glm::dvec3(0.0);
+            at_m_ = moment.hand_m;
+        }
+        if (change_) change_(moment, bodies);
+        fluid_->step(moment.dt_s, bodies, false);
+        if (const auto result = fluid_->result(true); result && !result->loads.empty())
+            loads_ = result->loads;
+        if (moment.holds_answer || loads_.empty()) return;
+        answer_.force_n = loads_[motions_.held().value_or(0)].force_n;
+        answer_.computed_for = now;
+        answer_.fluid_period = Seconds(moment.scene->solver.dt_s);
+        ++answer_.sequence;
+    }
+    std::vector<gles::Load> loads() override { return loads_; }
+    FluidSnapshot answer() override { return answer_; }
+    const gles::Fluid& fluid() const override { return *fluid_; }
+    void reset() override {
+        fluid_->reset();
+        at_m_.reset();
+        time_s_ = 0.0;
+    }
+
+  private:
+    std::unique_ptr<gles::Fluid> fluid_;
+    BodySchedule motions_;
+    ChangeBodies change_;
+    std::vector<gles::Load> loads_;
+    FluidSnapshot answer_;
+    std::optional<glm::dvec3> at_m_;  ///< where the hand has held the body
+    double time_s_ = 0.0;             ///< of the scene
+};
+
+/// The exhibit's fluid side, as `eddy run` drives it.
+class Exhibit final : public Rig {
+  public:
+    Exhibit(gles::Gpu& gpu, const Scene& scene)
+        : show_(gpu, scene, exchange_),
+          quality_(quality_of(scene)),
+          holds_(BodySchedule(scene).held().has_value()) {}
+
+    void step(const Moment& moment, const PoseSnapshot& hand, Instant now) override {
+        exchange_.pose.publish(hand);
+        // The longest step that eddy run asks for.
+        show_.update(now, Seconds(std::min(moment.dt_s, 0.1)), false);
+        if (!moment.holds_answer) show_.publish(true);
+    }
+    std::vector<gles::Load> loads() override {
+        if (!holds_) return {};
+        return {{answer().force_n, answer().torque_nm}};
+    }
+    FluidSnapshot answer() override { return exchange_.fluid.newest(); }
+    const gles::Fluid& fluid() const override { return show_.fluid(); }
+    void reset() override { show_.reset(); }
+    void change_preset() override {
+        quality_ = with_preset(
+            quality_, quality_.preset == SolverPreset::Fast ? SolverPreset::Precise : SolverPreset::Fast);
+        show_.set_quality(quality_);
+    }
+
+  private:
+    HapticExchange exchange_;
+    Show show_;
+    Quality quality_;
+    bool holds_;  ///< a body
+};
+
+}  // namespace
+
+std::unique_ptr<Rig> make_rig(gles::Gpu& gpu, const Scene& scene, bool with_hand, ChangeBodies bodies) {
+    if (with_hand) return std::make_unique<Exhibit>(gpu, scene);
+    return std::make_unique<Steps>(gpu, scene, std::move(bodies));
+}
+
+}  // namespace eddy::stability

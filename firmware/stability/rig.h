@@ -1,0 +1,28 @@
+#pragma once
+#include <memory>
+
+#include "firmware/haptic/exchange.h"
+#include "firmware/stability/case.h"
+
+namespace eddy::stability {
+
+/// What moves the fluid of a trial on.
+class Rig {
+  public:
+    virtual ~Rig() = default;
+    /// A step as the moment says. `hand`: where the hand is, at `now`.
+    virtual void step(const Moment& moment, const PoseSnapshot& hand, Instant now) = 0;
+    /// Loads of that step, as they came back; one for each body, or the held body's alone.
+    virtual std::vector<gles::Load> loads() = 0;
+    /// What the hand may know.
+    virtual FluidSnapshot answer() = 0;
+    virtual const gles::Fluid& fluid() const = 0;
+    virtual void reset() = 0;
+    virtual void change_preset() {}
+};
+
+/// `bodies`: see Case::bodies; of all cases that are tried at once.
+using ChangeBodies = std::function<void(const Moment&, std::vector<gles::BodyState>&)>;
+std::unique_ptr<Rig> make_rig(gles::Gpu& gpu, const Scene& scene, bool with_hand, ChangeBodies bodies);
+
+}  // namespace eddy::stability

@@ -1,0 +1,198 @@
+#include "firmware/stability/trial.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "firmware/fluid_setup.h"
+#include "firmware/show.h"
+#include "firmware/stability/hand.h"
+#include "firmware/stability/ledger.h"
+#include "firmware/stability/rig.h"
+
+namespace eddy::stability {
+namespace {
+
+/// Steps between looks into the fields: to bring them to the processor must not cost more than the step.
+long steps_between_looks(const glm::ivec3& n, long steps) {
+    const long cells = long{n.x} * n.y * n.z;
+    const long by_size = cells <= 1000 ? 1 : cells <= 20000 ? 4 : cells <= 60000 ? 10 : 25;
+    return std::max(by_size, steps / 1000);
+}
+
+/// Cases at once, as one.
+struct Mixture {
+    Scene scene;
+    long steps;
+    double calm_share = 1.0, narrowing = 1.0;
+    bool with_hand = false, puts_faults = false;
+    long pardon_steps = 0;
+};
+
+Mixture mixture_of(std::span<const Case* const> cases, const Trial& trial, long most_steps) {
+    Mixture all{common_scene(trial), cases.size() > 1 ? kStepsOfPair : cases.front()->steps};
+    bool wants_steps = false;
+    for (const Case* one : cases) {
+        if (one->change) one->change(all.scene);
+        all.calm_share = std::min(all.calm_share, one->calm_share);
+        if (one->narrowing) all.narrowing *= one->narrowing(trial.cells);
+        all.with_hand |= one->drive == Drive::Hand;
+        wants_steps |= one->drive == Drive::Steps;
+        all.puts_faults |= one->puts_faults;
+        all.pardon_steps = std::max(all.pardon_steps, one->pardon_steps);
+    }
+    all.with_hand &= !wants_steps;
+    all.steps = std::min(all.steps, most_steps);
+    return all;
+}
+
+/// A trial under way.
+class Run {
+  public:
+    Run(gles::Gpu& gpu, std::span<const Case* const> cases, const Trial& trial, Mixture mixture)
+        : cases_(cases),
+          mixture_(std::move(mixture)),
+          setup_(fluid_setup(mixture_.scene)),
+          gate_{.max_force_n = mixture_.scene.haptics.max_force_n},
+          rule_(tank_of(setup_), {gate_.max_force_n, gate_.slew_n_per_s}),
+          ledger_(mixture_.scene, setup_, mixture_.narrowing),
+          at_rest_(ledger_.at_rest()),
+          hand_(orders_for(mixture_.scene, setup_), gate_),
+          rig_(make_rig(gpu, mixture_.scene, mixture_.with_hand,
+                        [this](const Moment& moment, std::vector<gles::BodyState>& bodies) {
+                            for (const Case* one : cases_)
+                                if (one->bodies) one->bodies(moment, bodies);
+                        })),
+          between_looks_(steps_between_looks(trial.cells, mixture_.steps)) {
+        if (mixture_.puts_faults) faults_.emplace(gpu);
+        history_.tank = tank_of(setup_);
+        history_.gravity_m_s2 = glm::length(setup_.gravity_m_s2);
+        history_.planned_steps = mixture_.steps;
+        const double dt_s = mixture_.scene.solver.dt_s;
+        calm_from_s_ = dt_s * static_cast<double>(mixture_.steps) * (1.0 - mixture_.calm_share);
+        rule_.begin(download(rig_->fluid()));
+    }
+
+    bool goes_on() const { return !rule_.failed() && step_ < mixture_.steps; }
+    void step();
+    Outcome outcome();
+
+  private:
+    Moment moment_now() const;
+    void prepare(const Moment& moment);
+    std::vector<gles::Load> loads() const;
+    void look(const Moment& moment);
+
+    std::span<const Case* const> cases_;
+    Mixture mixture_;
+    gles::FluidSetup setup_;
+    GateLimits gate_;
+    Rule rule_;
+    Ledger ledger_;
+    std::vector<gles::Load> at_rest_;
+    Hand hand_;
+    std::unique_ptr<Rig> rig_;
+    std::optional<Faults> faults_;
+    History history_;
+    long between_looks_;
+    long step_ = 0, resets_ = 0, pardoned_until_ = 0;
+    double time_s_ = 0.0, calm_from_s_ = 0.0;
+};
+
+Moment Run::moment_now() const {
+    Moment moment{.step = step_, .time_s = time_s_, .calm_from_s = calm_from_s_, .scene = &mixture_.scene};
+    moment.dt_s = mixture_.scene.solver.dt_s;
+    moment.hand_m = stroke_m(moment);
+    for (const Case* one : cases_)
+        if (one->script) one->script(moment);
+    return moment;
+}
+
+/// What happens between two steps.
+void Run::prepare(const Moment& moment) {
+    for (const Fault& fault : moment.faults) {
+        faults_->put(rig_->fluid(), fault);
+        if (!moment.reset) pardoned_until_ = step_ + mixture_.pardon_steps;
+    }
+    if (moment.reset) {
+        rig_->reset();
+        ++resets_;
+    }
+    if (moment.change_preset) rig_->change_preset();
+    if (faults_) faults_->begin_step();
+}
+
+std::vector<gles::Load> Run::loads() const {
+    std::vector<gles::Load> loads = rig_->loads();
+    for (std::size_t i = 0; i < std::min(loads.size(), at_rest_.size()); ++i)
+        loads[i].force_n -= at_rest_[i].force_n;
+    return loads;
+}
+
+void Run::step() {
+    const Moment moment = moment_now();
+    prepare(moment);
+    hand_.tick(moment.dt_s, moment.hand_m, rig_->answer(), !moment.holds_answer, rule_, history_);
+    rig_->step(moment, hand_.pose(), hand_.now());
+    time_s_ += std::max(0.0, moment.dt_s);
+    const std::vector<gles::BodyState>& bodies = rig_->fluid().bodies();
+    history_.steps.push_back({time_s_, moment.dt_s, moment.disturbs(), resets_, loads(), bodies});
+    const std::vector<gles::Load>& felt = history_.steps.back().loads;
+    // With a hand only its own load comes back: what other bodies do is then counted by their speed.
+    ledger_.add(time_s_, moment.dt_s, bodies,
+                felt.size() == bodies.size() ? felt : std::vector<gles::Load>());
+    look(moment);
+    ++step_;
+}
+
+void Run::look(const Moment& moment) {
+    const bool pardoned = step_ < pardoned_until_;
+    const bool looks = moment.look || pardoned || step_ == pardoned_until_ || step_ % between_looks_ == 0 ||
+                       step_ + 1 == mixture_.steps;
+    std::optional<Fields> fields;
+    if (looks) {
+        fields = download(rig_->fluid());
+        history_.looks.push_back(look_at(history_.tank, *fields, step_));
+    }
+    rule_.see({.step = step_ + 1,
+               .time_s = time_s_,
+               .justified = ledger_.justified(),
+               .fields = fields ? &*fields : nullptr,
+               .loads = history_.steps.back().loads,
+               .disturbed = moment.disturbs(),
+               .pardoned = pardoned});
+}
+
+Outcome Run::outcome() {
+    Outcome outcome{step_, rule_.verdict()};
+    // A criterion is about what happened to the end.
+    if (outcome.verdict.pass && cases_.size() == 1 && cases_[0]->complaint && step_ == mixture_.steps)
+        if (const auto complaint = cases_[0]->complaint(history_)) {
+            rule_.blame(step_, *complaint);
+            outcome.verdict = rule_.verdict();
+        }
+    return outcome;
+}
+
+}  // namespace
+
+Outcome try_out(gles::Gpu& gpu, std::span<const Case* const> cases, const Trial& trial, long most_steps) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    Outcome outcome;
+    long steps = 0;
+    try {
+        Run run(gpu, cases, trial, mixture_of(cases, trial, most_steps));
+        for (; run.goes_on(); ++steps) run.step();
+        outcome = run.outcome();
+    } catch (const std::exception& e) {
+        // Whatever the program gives up at is a failure of the case, not of the laboratory.
+        outcome.steps = steps;
+        outcome.verdict.pass = false;
+        outcome.verdict.reason = fmt::format("step {}: {}", steps + 1, e.what());
+    }
+    outcome.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+    return outcome;
+}
+
+}  // namespace eddy::stability

@@ -1,0 +1,23 @@
+#pragma once
+#include <span>
+
+#include "firmware/stability/case.h"
+#include "firmware/stability/rule.h"
+
+namespace eddy::stability {
+
+/// What became of a case, or of two at once, on one grid at one effort.
+struct Outcome {
+    long steps = 0;  ///< taken; fewer than planned after a failure
+    Verdict verdict = {};
+    double wall_s = 0.0;
+};
+
+/// What two at once are changed to: see Case. The criteria of the single cases do not hold for both at once: of two, only the
+/// rule is judged.
+inline constexpr long kStepsOfPair = 200;
+
+/// Tries it, for at most `most_steps`.
+Outcome try_out(gles::Gpu& gpu, std::span<const Case* const> cases, const Trial& trial, long most_steps);
+
+}  // namespace eddy::stability

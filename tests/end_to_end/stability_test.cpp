@@ -1,0 +1,90 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/end_to_end/program.h"
+
+namespace eddy {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A row that takes a moment, with both efforts.
+std::vector<std::string> small_matrix(const std::string& out, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"stability", "--case",  "grid-8^3", "--grid",
+                                       "8,9",       "--quick", "--out",    out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+bool has_gnuplot() {
+    return Program({"env", "gnuplot", "--version"}).wait().status == 0;
+}
+
+TEST(Stability, ListsEveryCaseWithWhatItProvokes) {
+    const Ended ended = eddy({"stability", "--list"});
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_THAT(ended.out, HasSubstr("\n 7  piston "));
+    EXPECT_THAT(ended.out, HasSubstr("provokes: "));
+    EXPECT_THAT(ended.out, HasSubstr("there is no free surface"));
+}
+
+TEST(Stability, PartsPutTogetherAreTheWhole) {
+    const ScratchFolder folder;
+    for (const std::string part : {"1", "2"}) eddy(small_matrix(folder / part, {"--shard", part + "/2"}));
+    const Ended all = eddy(small_matrix(folder / "all", {"--merge", folder / "1", folder / "2"}));
+    EXPECT_EQ(all.status, has_gnuplot() ? 0 : 1) << all.err;
+    EXPECT_THAT(all.out, HasSubstr("4 of 4 cells of single cases"));
+    EXPECT_EQ(lines_of(read_all(folder / "all/stability.csv")).size(), 5u);
+    EXPECT_THAT(read_all(folder / "all/report.md"),
+                HasSubstr("| 27 | grid-8^3 | 9^3 | least | 60 | green |"));
+    const Ended half = eddy(small_matrix(folder / "half", {"--merge", folder / "1"}));
+    EXPECT_EQ(half.status, 2);
+    EXPECT_THAT(half.err, HasSubstr("none of these folders holds"));
+}
+
+TEST(Stability, ARunThatWasCutShortGoesOn) {
+    const ScratchFolder folder;
+    eddy(small_matrix(folder / "out"));
+    const std::vector<std::string> lines = lines_of(read_all(folder / "out/stability.csv"));
+    ASSERT_EQ(lines.size(), 5u);
+    // What is known is not tried again: not even where it could not have come out so.
+    std::string cut = lines[0] + "\n" + lines[1] + "\n" + lines[3] + "\n";
+    const std::size_t yes = cut.find("yes");
+    ASSERT_NE(yes, std::string::npos);
+    cut.replace(yes, 3, "no");
+    std::ofstream(folder / "out/stability.csv") << cut;
+    const Ended ended = eddy(small_matrix(folder / "out", {"--resume"}));
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_THAT(ended.out, HasSubstr("3 of 4 cells of single cases"));
+    EXPECT_EQ(lines_of(read_all(folder / "out/stability.csv")).size(), 5u);
+}
+
+TEST(Stability, DrawsItsHeatMap) {
+    if (!has_gnuplot()) GTEST_SKIP() << "skipped: gnuplot is not installed";
+    const ScratchFolder folder;
+    EXPECT_EQ(eddy(small_matrix(folder / "out")).status, 0);
+    EXPECT_GT(read_all(folder / "out/heat_map.png").size(), 3000u);
+}
+
+TEST(Stability, SaysWhatIsWrongWithAnOrder) {
+    EXPECT_EQ(eddy({"stability", "--case", "pistn"}).status, 2);
+    EXPECT_THAT(eddy({"stability", "--case", "pistn"}).err, HasSubstr("nearest first: piston"));
+    EXPECT_THAT(eddy({"stability", "--grid", "2"}).err, HasSubstr("write a grid as"));
+    EXPECT_THAT(eddy({"stability", "--resume"}).err, HasSubstr("--out"));
+}
+
+TEST(Stability, TheQuickMatrixIsGreen) {
+    const Ended ended = Program(eddy_command({"stability", "--quick"})).wait(std::chrono::minutes(9));
+    std::string red;
+    const std::vector<std::string> lines = lines_of(ended.out);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (lines[i].find(" RED ") != std::string::npos) red += lines[i] + "\n" + lines[i + 1] + "\n";
+    EXPECT_EQ(ended.status, 0) << red << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("of pairs are green"));
+}
+
+}  // namespace
+}  // namespace eddy

@@ -1,0 +1,104 @@
+#include "firmware/stability/trial.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/gles/gl_fixture.h"
+
+namespace eddy::stability {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr Trial kSmall{glm::ivec3(8), Effort::Least};
+
+class TrialTest : public gles::GlTest {
+  protected:
+    Outcome outcome_of(const Case& one, long steps = 20) {
+        const Case* cases[] = {&one};
+        return try_out(gpu, cases, kSmall, steps);
+    }
+};
+
+TEST_F(TrialTest, StirringIsNotHard) {
+    for (const Drive drive : {Drive::Steps, Drive::Hand}) {
+        const Outcome outcome = outcome_of({.name = "stir", .drive = drive});
+        EXPECT_TRUE(outcome.verdict.pass) << outcome.verdict.reason;
+        EXPECT_EQ(outcome.steps, 20);
+        EXPECT_GT(outcome.verdict.largest_force_n, 0.0);
+        EXPECT_GT(outcome.verdict.kinetic_energy_ratio, 0.01) << "nothing moved";
+    }
+}
+
+TEST_F(TrialTest, FindsEnergyThatComesFromNowhere) {
+    // A wind that nobody has made.
+    const Outcome outcome = outcome_of({.name = "wind", .drive = Drive::Steps, .script = [](Moment& m) {
+                                            if (m.step == 5)
+                                                m.flow = [](std::vector<glm::vec3>& u) {
+                                                    for (std::size_t i = 0; i < u.size(); ++i)
+                                                        u[i].y += i / 81 % 2 == 0 ? 30.0f : -30.0f;
+                                                };
+                                        }});
+    EXPECT_FALSE(outcome.verdict.pass);
+    EXPECT_EQ(outcome.steps, 6) << outcome.verdict.reason;
+}
+
+TEST_F(TrialTest, FindsSmokeThatComesFromNowhere) {
+    const Outcome outcome = outcome_of({.name = "spill",
+                                        .script =
+                                            [](Moment& m) {
+                                                if (m.step == 5) m.faults = {{Fault::Place::Smoke, 7.0f}};
+                                            },
+                                        .puts_faults = true});
+    EXPECT_THAT(outcome.verdict.reason, HasSubstr("smoke from"));
+}
+
+TEST_F(TrialTest, FaultsReachTheFieldsTheyAreMeantFor) {
+    using Place = Fault::Place;
+    for (const Place place : {Place::Velocity, Place::Pressure, Place::Smoke, Place::Fractions}) {
+        const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(
+            gpu, {.cells = glm::ivec3(8), .smoke = gles::SmokeSetup{}, .bodies = {{gles::Sphere{0.008}}}});
+        Faults faults(gpu);
+        faults.begin_step();
+        fluid->step(0.02, {{.centre_m = glm::dvec3(0.02)}}, false);
+        fluid->wait_result();
+        EXPECT_EQ(non_finite_texels(download(*fluid)), 0);
+        faults.put(*fluid, {place, std::numeric_limits<float>::quiet_NaN()});
+        // Of the shares of the solid nothing is downloaded; a texel of the pressure is four cells.
+        const long found = place == Place::Fractions ? 0 : place == Place::Pressure ? 4 : 1;
+        EXPECT_EQ(non_finite_texels(download(*fluid)), found) << static_cast<int>(place);
+    }
+}
+
+TEST_F(TrialTest, AskedForACriterionItSaysWhatIsWrong) {
+    const Outcome outcome =
+        outcome_of({.name = "picky", .complaint = [](const History& history) {
+                        return std::optional("I have seen " + std::to_string(history.steps.size()));
+                    }});
+    EXPECT_EQ(outcome.verdict.reason, "step 20: I have seen 20");
+}
+
+TEST_F(TrialTest, AProgramThatGivesUpIsARedCell) {
+    const Outcome outcome = outcome_of({.name = "impossible", .change = [](Scene& s) {
+                                            s.solver.time_order = 2;
+                                            s.fluid.viscosity_pa_s = 1.0;
+                                        }});
+    EXPECT_FALSE(outcome.verdict.pass);
+    EXPECT_THAT(outcome.verdict.reason, HasSubstr("second order in time"));
+}
+
+TEST_F(TrialTest, OfTwoAtOnceBothHappen) {
+    const Case wind{.name = "dense", .change = [](Scene& s) { s.fluid.density_kg_m3 = 1000.0; }};
+    const Case still{.name = "still", .script = [](Moment& m) { m.hand_m = m.middle_m(); }};
+    const Case* both[] = {&wind, &still};
+    const Outcome outcome = try_out(gpu, both, kSmall, 20);
+    EXPECT_TRUE(outcome.verdict.pass) << outcome.verdict.reason;
+    EXPECT_EQ(outcome.verdict.largest_force_n, 0.0);
+    EXPECT_GT(outcome_of(wind).verdict.largest_force_n,
+              100.0 * outcome_of({.name = "stir"}).verdict.largest_force_n);
+}
+
+}  // namespace
+}  // namespace eddy::stability
