@@ -95,7 +95,9 @@ std::vector<Case> body_cases() {
                              stream_through(s, vector_of({0.1, 0.0, 0.0}));
                          },
                      .complaint = force_is_continuous(0, 0.25, 20),
-                     .calm_share = 0.0});
+                     .calm_share = 0.0,
+                     // The plate stands in a quarter of the stream.
+                     .narrowing = [](const glm::ivec3&) { return 4.0 / 3.0; }});
     cases.push_back(tiny("fifth-of-a-cell", "the ball in the hand has a radius of a fifth of a cell", 0.2));
     cases.push_back(tiny("radius-0", "the ball in the hand has no radius", 0.0));
     cases.push_back({.number = 12,
@@ -114,7 +116,12 @@ std::vector<Case> body_cases() {
                              s.bodies.back().oscillation = swing({-way, 0.0, 0.0}, 0.2, 0.5 * kPi);
                          },
                      .complaint = all_of({force_is_continuous(0, 0.5, 20), force_is_continuous(1, 0.5, 20)}),
-                     .calm_share = 0.0});
+                     .calm_share = 0.0,
+                     // What two balls press out from between them at the last, half a cell apart.
+                     .narrowing =
+                         [](const glm::ivec3& n) {
+                             return std::max(1.0, 0.15 * std::max({n.x, n.y, n.z}));
+                         }});
     cases.push_back(liar("spin-not-shown", "the ball stands still and is said to move at 0.5 m/s and spin",
                          [](const Moment&, gles::BodyState& ball) {
                              ball.velocity_m_s = {0.5, 0.0, 0.0};

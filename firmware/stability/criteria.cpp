@@ -12,6 +12,11 @@ namespace {
 
 using Complaint = std::optional<std::string>;
 
+/// After these an impulsive start is over.
+constexpr long kSettlingSteps = 10;
+/// Of shorter runs nobody can say whether something levels off.
+constexpr long kLongEnough = 400;
+
 double pressure_of(const History::Look& look) {
     return std::max(std::abs(look.pressure_pa.low), std::abs(look.pressure_pa.high));
 }
@@ -39,6 +44,7 @@ double peak_force_n(const History& history, std::size_t body = 0) {
 
 Criterion levels_off(double (*figure)(const History::Look&), double factor, const char* what) {
     return [=](const History& history) -> Complaint {
+        if (history.planned_steps < kLongEnough) return {};
         const double before = most(history, 0.5, 0.75, figure), last = most(history, 0.75, 1.0, figure);
         if (last <= factor * before) return {};
         return fmt::format("{} still grows: {:.3g} in the third quarter, {:.3g} in the last", what, before,
@@ -129,11 +135,16 @@ Criterion gives_back_no_more() {
 
 Criterion volume_balances(double share) {
     return [=](const History& history) -> Complaint {
-        for (const History::Look& look : history.looks)
-            if (look.step > 0 && std::abs(look.net_m3_s) > share * look.in_m3_s)
-                return fmt::format("at step {} {:.2g} of what flows in does not flow out", look.step + 1,
-                                   std::abs(look.net_m3_s) / look.in_m3_s);
-        return {};
+        double most_m3_s = 0.0, worst = 0.0;
+        long worst_step = 0;
+        for (const History::Look& look : history.looks) {
+            most_m3_s = std::max(most_m3_s, look.in_m3_s);
+            if (look.step < kSettlingSteps || !(std::abs(look.net_m3_s) > worst * most_m3_s)) continue;
+            worst = std::abs(look.net_m3_s) / most_m3_s;
+            worst_step = look.step;
+        }
+        if (worst <= share) return {};
+        return fmt::format("{:.2g} of what flows in does not flow out (step {})", worst, worst_step + 1);
     };
 }
 
@@ -220,10 +231,9 @@ Criterion no_force_outside() {
 Criterion energy_decays(long by_step) {
     return [=](const History& history) -> Complaint {
         for (const History::Look& look : history.looks)
-            if (look.step >= by_step && look.energy_j > 0.1 * history.looks.front().energy_j &&
-                history.looks.front().energy_j > 0.0)
-                return fmt::format("step {} has {:.0f} % of the kinetic energy of the first", look.step + 1,
-                                   100.0 * look.energy_j / history.looks.front().energy_j);
+            if (look.step >= by_step && look.energy_j > 0.1 * history.start_energy_j)
+                return fmt::format("step {} has {:.0f} % of the kinetic energy of the start", look.step + 1,
+                                   100.0 * look.energy_j / history.start_energy_j);
         return {};
     };
 }

@@ -24,7 +24,7 @@ Criterion speed_never_rises();
 Criterion no_faster_than_a_fall(double expansion_1_k);
 /// Bodies do no negative work in all: the fluid gives back no more than it got.
 Criterion gives_back_no_more();
-/// What flows in through the walls flows out, but for this share.
+/// What flows in through the walls flows out, but for this share of the most that ever flowed in.
 Criterion volume_balances(double share);
 /// From one step to the next the force on body `i` changes by less than this share of its peak, after the first `settling`.
 Criterion force_is_continuous(std::size_t i, double share, long settling);

@@ -19,6 +19,7 @@ Case swirls(double strength_1_s) {
         .wants = "kinetic energy levels off",
         .change = [strength_1_s](Scene& s) { s.vorticity_confinement.emplace().strength_1_s = strength_1_s; },
         .complaint = energy_levels_off(),
+        .steps = 1500,
         .calm_share = 0.0};
 }
 

@@ -26,6 +26,8 @@ class Ledger {
     void add_walls(double time_s, double dt_s);
     void add_weight();
     void faster(double speed_m_s) { justified_.speed_m_s = std::max(justified_.speed_m_s, speed_m_s); }
+    /// Kinetic energy that the rule finds in and on a body, whatever the fluid does.
+    double around_j(std::size_t body, double speed_m_s) const;
     void give(double work_j);
     /// Of the whole tank at this speed: given once, for the fastest so far.
     void whole_tank(double& fastest_m_s, double speed_m_s);
@@ -37,6 +39,7 @@ class Ledger {
     std::vector<bool> running_;                 ///< sources, in the last step
     Justified justified_;
     double bodies_m_s_ = 0.0, walls_m_s_ = 0.0, weight_m_s_ = 0.0, forcing_m_s_ = 0.0, swirl_m_s_ = 0.0;
+    bool others_drive_;     ///< something else than bodies puts energy into the fluid
     double solid_j_ = 0.0;  ///< kinetic energy of what bodies displace, as they move now
     double smoke_start_ = 0.0, heat_start_k_ = 0.0;
 };

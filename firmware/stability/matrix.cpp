@@ -35,7 +35,7 @@ std::vector<const Case*> pair_named(const std::string& name) {
 
 /// Whether it is worth having beside any other: not too long, and not about a grid of its own.
 bool pairs_up(const Case& one) {
-    return !one.alone && one.grids.empty() && !one.full_only && one.steps <= 500;
+    return !one.alone && one.grids.empty() && !one.full_only && one.steps <= 1500;
 }
 
 std::vector<std::vector<const Case*>> asked_for(const Order& order) {

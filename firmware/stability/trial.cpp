@@ -70,10 +70,15 @@ class Run {
         history_.planned_steps = mixture_.steps;
         const double dt_s = mixture_.scene.solver.dt_s;
         calm_from_s_ = dt_s * static_cast<double>(mixture_.steps) * (1.0 - mixture_.calm_share);
-        rule_.begin(download(rig_->fluid()));
+        const Fields start = download(rig_->fluid());
+        history_.start_energy_j = kinetic_energy_j(history_.tank, start);
+        rule_.begin(start);
     }
 
-    bool goes_on() const { return !rule_.failed() && step_ < mixture_.steps; }
+    /// What is red goes on, to show how far it goes; but numbers that are none only spread.
+    bool goes_on() const {
+        return step_ < mixture_.steps && !(rule_.failed() && rule_.verdict().non_finite > 0);
+    }
     void step();
     Outcome outcome();
 

@@ -32,8 +32,13 @@ Case cover(const char* name, const char* title, double share) {
         .complaint = all_of(
             {pressure_bounded(kStream + 0.2 * 2.0 * std::numbers::pi * 0.15 * 0.16), pressure_levels_off()}),
         .calm_share = 0.0,
-        // What is left open beside the lid; behind one that covers all, nothing is.
-        .narrowing = [share](const glm::ivec3&) { return share < 1.0 ? 1.0 / (1.0 - share * share) : 1.0; }};
+        // What comes in below a lid of s L goes out at its edge, through half a cell at the last; and the stream goes
+        // through what it leaves open.
+        .narrowing =
+            [share](const glm::ivec3& n) {
+                const double below = 0.5 * share * std::max({n.x, n.y, n.z});
+                return share < 1.0 ? std::max(below, 1.0 / (1.0 - share * share)) : 1.0;
+            }};
 }
 
 /// 7: walls, roof and piston of a cup that stands upside down on the floor.

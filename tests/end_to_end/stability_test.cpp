@@ -71,7 +71,7 @@ TEST(Stability, DrawsItsHeatMap) {
 
 TEST(Stability, SaysWhatIsWrongWithAnOrder) {
     EXPECT_EQ(eddy({"stability", "--case", "pistn"}).status, 2);
-    EXPECT_THAT(eddy({"stability", "--case", "pistn"}).err, HasSubstr("nearest first: piston"));
+    EXPECT_THAT(eddy({"stability", "--case", "pistn"}).err, HasSubstr("nearest first: \"piston\""));
     EXPECT_THAT(eddy({"stability", "--grid", "2"}).err, HasSubstr("write a grid as"));
     EXPECT_THAT(eddy({"stability", "--resume"}).err, HasSubstr("--out"));
 }

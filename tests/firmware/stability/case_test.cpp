@@ -4,21 +4,12 @@
 
 #include <set>
 
-#include "firmware/input_error.h"
+#include "tests/firmware/stability/complaint.h"
 
 namespace eddy::stability {
 namespace {
 
 using testing::HasSubstr;
-
-std::string complaint_about(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "nothing";
-}
 
 TEST(HardCase, EveryNumberOfTheListIsTriedOrSaidToBeMissing) {
     std::set<int> numbers;
@@ -42,7 +33,7 @@ TEST(HardCase, HasANameOfItsOwnAndSaysWhatItIsAbout) {
 TEST(HardCase, IsFoundByNumberAndByName) {
     EXPECT_EQ(cases_named("piston").size(), 1u);
     EXPECT_EQ(cases_named("4").size(), 3u);
-    EXPECT_THAT(complaint_about([] { cases_named("pistol"); }), HasSubstr("nearest first: piston"));
+    EXPECT_THAT(complaint_about([] { cases_named("pistol"); }), HasSubstr("nearest first: \"piston\""));
     EXPECT_THAT(complaint_about([] { cases_named("31"); }), HasSubstr("no free surface"));
 }
 

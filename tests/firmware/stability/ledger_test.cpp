@@ -33,12 +33,40 @@ TEST(Ledger, CountsTheWorkOfABodyAgainstItsLoad) {
     ledger.add(0.1, 0.1, {moving}, {{{0.0, -10.0, 0.0}, {}}});
     EXPECT_DOUBLE_EQ(ledger.justified().speed_m_s, 3.0);
     const double volume = 4.0 / 3.0 * std::numbers::pi * 1e-3;
+    const double skin = 4.0 * std::numbers::pi * 1e-2 * 0.5 * 0.125;
     const double swept = volume;  // pi (0.1 m)^2 * 0.3 m would be more than there is of it
-    EXPECT_NEAR(ledger.justified().work_j, 3.0 + 0.5 * 2.0 * 9.0 * (volume + swept), 1e-9);
+    EXPECT_NEAR(ledger.justified().work_j, 3.0 + 0.5 * 2.0 * 9.0 * (volume + 1.5 * 1.5 * skin + swept), 1e-9);
     // At rest again: what it displaces stands, the speed it once had remains on record.
     ledger.add(0.2, 0.1, {{}}, {{}});
     EXPECT_NEAR(ledger.justified().work_j, 3.0 + 0.5 * 2.0 * 9.0 * swept, 1e-9);
     EXPECT_DOUBLE_EQ(ledger.justified().speed_m_s, 3.0);
+}
+
+TEST(Ledger, ATeleportJustifiesNoMoreThanATankLengthAStep) {
+    const Scene scene = scene_of("[[body]]\nradius_m = 0.1\ncentre_m = [0.5, 0.5, 0.5]\nmotion = \"held\"\n");
+    Ledger ledger(scene, fluid_setup(scene));
+    gles::BodyState far;
+    far.velocity_m_s = {1e9, 0.0, 0.0};
+    ledger.add(0.1, 0.1, {far}, {{{-1.0, 0.0, 0.0}, {}}});
+    EXPECT_DOUBLE_EQ(ledger.justified().speed_m_s, 10.0);
+    EXPECT_LT(ledger.justified().work_j, 1e3);
+}
+
+TEST(Ledger, WhatABodyTakesFromAStreamIsNotTakenFromTheTank) {
+    const std::string body = "[[body]]\nradius_m = 0.1\ncentre_m = [0.5, 0.5, 0.5]\nmotion = \"held\"\n";
+    const std::string jet =
+        "[[source]]\ncentre_m = [0.2, 0.5, 0.5]\nradius_m = 0.1\nvelocity_m_s = [1.0, 0.0, 0.0]\n";
+    gles::BodyState pushed;
+    pushed.velocity_m_s = {0.5, 0.0, 0.0};
+    double work_j[2];
+    for (const bool blown : {false, true}) {
+        const Scene scene = scene_of(blown ? jet + body : body);
+        Ledger ledger(scene, fluid_setup(scene));
+        ledger.add(0.1, 0.1, {pushed}, {{{1e3, 0.0, 0.0}, {}}});
+        work_j[blown] = ledger.justified().work_j;
+    }
+    EXPECT_LT(work_j[false], 0.0);
+    EXPECT_GT(work_j[true], 0.0);
 }
 
 TEST(Ledger, AFreeBodyCannotJustifyARunaway) {
