@@ -75,7 +75,9 @@ struct Case {
         0.5;  ///< of the steps, at the end, in which nothing disturbs; 0: something always does
     /// How much faster the flow must be in a gap: see Justified. None: no gap is narrow.
     std::function<double(const glm::ivec3& cells)> narrowing = {};
-    bool puts_faults = false;            ///< its script does
+    bool puts_faults = false;  ///< its script does
+    /// Transport must not make new extremes of the velocity; alone only, with cut cells.
+    bool watches_transport = false;
     long pardon_steps = 0;               ///< after a fault: how many steps it may take to heal
     bool small_only = false;             ///< takes too long on large grids
     bool full_only = false;              ///< takes too long for a quick look

@@ -36,8 +36,8 @@ Case inviscid(const char* name, const char* title, std::function<void(Scene&)> t
             .complaint = energy_never_rises(),
             .steps = 10000,
             .calm_share = 0.0,
-            .small_only = true,
-            .full_only = true};
+            .full_only = true,
+            .grids = {glm::ivec3(8), glm::ivec3(16), glm::ivec3(25)}};
 }
 
 /// 15: nu dt / h^2 is this.

@@ -17,6 +17,7 @@ Case courant(double number) {
             .name = fmt::format("courant-{:g}", number),
             .title = fmt::format("a jet crosses {:g} cells in a step, around a ball", number),
             .provokes = "transport that overshoots: new extremes of smoke and of velocity",
+            .wants = "transport makes no new extremes of any component of the velocity",
             .change =
                 [number](Scene& scene) {
                     Scene::Source& jet = scene.sources.emplace_back();
@@ -26,7 +27,8 @@ Case courant(double number) {
                     jet.velocity_m_s = glm::dvec3(number * scene.tank.cell_m() / scene.solver.dt_s, 0.0, 0.0);
                 },
             .script = rest_in_the_middle,
-            .calm_share = 0.0};
+            .calm_share = 0.0,
+            .watches_transport = true};
 }
 
 constexpr double kStream = 0.3;  // m/s, a draught

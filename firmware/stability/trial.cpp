@@ -9,6 +9,7 @@
 #include "firmware/stability/hand.h"
 #include "firmware/stability/ledger.h"
 #include "firmware/stability/rig.h"
+#include "firmware/stability/transport_watch.h"
 
 namespace eddy::stability {
 namespace {
@@ -65,6 +66,7 @@ class Run {
                         })),
           between_looks_(steps_between_looks(trial.cells, mixture_.steps)) {
         if (mixture_.puts_faults) faults_.emplace(gpu);
+        if (cases_.size() == 1 && cases_[0]->watches_transport) transport_.emplace(gpu);
         history_.tank = tank_of(setup_);
         history_.gravity_m_s2 = glm::length(setup_.gravity_m_s2);
         history_.planned_steps = mixture_.steps;
@@ -86,6 +88,7 @@ class Run {
     Moment moment_now() const;
     void prepare(const Moment& moment);
     std::vector<gles::Load> loads() const;
+    void judge_transport();
     void look(const Moment& moment);
 
     std::span<const Case* const> cases_;
@@ -98,6 +101,7 @@ class Run {
     Hand hand_;
     std::unique_ptr<Rig> rig_;
     std::optional<Faults> faults_;
+    std::optional<TransportWatch> transport_;
     History history_;
     long between_looks_;
     long step_ = 0, resets_ = 0, pardoned_until_ = 0;
@@ -127,6 +131,14 @@ void Run::prepare(const Moment& moment) {
     if (faults_) faults_->begin_step();
 }
 
+void Run::judge_transport() {
+    const double beyond = transport_->overshoot_m_s(), speed = ledger_.justified().speed_m_s;
+    if (beyond > 1e-5 * speed)  // rounding
+        rule_.blame(step_ + 1,
+                    fmt::format("transport makes a component of the velocity {:.3g} m/s larger than any was",
+                                beyond));
+}
+
 std::vector<gles::Load> Run::loads() const {
     std::vector<gles::Load> loads = rig_->loads();
     for (std::size_t i = 0; i < std::min(loads.size(), at_rest_.size()); ++i)
@@ -138,7 +150,9 @@ void Run::step() {
     const Moment moment = moment_now();
     prepare(moment);
     hand_.tick(moment.dt_s, moment.hand_m, rig_->answer(), !moment.holds_answer, rule_, history_);
+    if (transport_) transport_->begin_step(rig_->fluid());
     rig_->step(moment, hand_.pose(), hand_.now());
+    if (transport_) judge_transport();
     time_s_ += std::max(0.0, moment.dt_s);
     const std::vector<gles::BodyState>& bodies = rig_->fluid().bodies();
     history_.steps.push_back({time_s_, moment.dt_s, moment.disturbs(), resets_, loads(), bodies});

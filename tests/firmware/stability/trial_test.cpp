@@ -1,4 +1,5 @@
 #include "firmware/stability/trial.h"
+#include "firmware/stability/transport_watch.h"
 
 #include <gmock/gmock.h>
 
@@ -91,6 +92,30 @@ TEST_F(TrialTest, AProgramThatGivesUpIsARedCell) {
                                         }});
     EXPECT_FALSE(outcome.verdict.pass);
     EXPECT_THAT(outcome.verdict.reason, HasSubstr("second order in time"));
+}
+
+TEST_F(TrialTest, NewExtremesOfTransportWouldBeSeen) {
+    gles::FluidSetup setup;
+    setup.cells = glm::ivec3(8);
+    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, setup);
+    TransportWatch watch(gpu);
+    const auto step_after = [&](float believed, float real) {
+        fluid->set_velocity(std::vector<glm::vec3>(9 * 9 * 9, glm::vec3(believed, 0.0f, 0.0f)));
+        watch.begin_step(*fluid);
+        fluid->set_velocity(std::vector<glm::vec3>(9 * 9 * 9, glm::vec3(real, 0.0f, 0.0f)));
+        fluid->step(0.01, {}, false);
+        return watch.overshoot_m_s();
+    };
+    EXPECT_EQ(step_after(1.0f, 1.0f), 0.0);
+    EXPECT_NEAR(step_after(1.0f, 1.25f), 0.25, 1e-6);
+    EXPECT_NEAR(step_after(-1.0f, -1.5f), 0.5, 1e-6);
+}
+
+TEST_F(TrialTest, WithoutFrictionAndForcingNoTransportMakesEnergy) {
+    for (const Case* one : cases_named("14")) {
+        const Outcome outcome = outcome_of(*one, 1000);
+        EXPECT_TRUE(outcome.verdict.pass) << one->name << ": " << outcome.verdict.reason;
+    }
 }
 
 TEST_F(TrialTest, OfTwoAtOnceBothHappen) {

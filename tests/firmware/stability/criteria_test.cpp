@@ -1,0 +1,142 @@
+#include "firmware/stability/criteria.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace eddy::stability {
+namespace {
+
+/// So many steps of 20 ms, with a force along x of the given size on one body.
+History with_force(long steps, const std::function<double(double)>& force_n) {
+    History history;
+    history.planned_steps = steps;
+    for (long n = 1; n <= steps; ++n) {
+        const double t = 0.02 * static_cast<double>(n);
+        history.steps.push_back(
+            {.time_s = t, .dt_s = 0.02, .loads = {{{force_n(t), 0.0, 0.0}, {}}}, .bodies = {{}}});
+    }
+    return history;
+}
+
+/// As many looks as steps, with what `set` makes of each.
+History with_looks(long steps, const std::function<void(History::Look&, double)>& set) {
+    History history;
+    history.planned_steps = steps;
+    history.start_energy_j = 1.0;
+    for (long n = 0; n < steps; ++n) {
+        History::Look look{.step = n};
+        set(look, static_cast<double>(n) / static_cast<double>(steps));
+        history.looks.push_back(look);
+    }
+    return history;
+}
+
+TEST(Criterion, GrowthIsToldFromALevel) {
+    const auto energy = [](double power) {
+        return with_looks(
+            1000, [power](History::Look& look, double share) { look.energy_j = std::pow(share, power); });
+    };
+    EXPECT_FALSE(energy_levels_off()(energy(0.1)));
+    EXPECT_TRUE(energy_levels_off()(energy(1.0)));
+}
+
+TEST(Criterion, EnergyThatRisesIsFoundHoweverLate) {
+    const auto kink = [](double rise) {
+        return with_looks(1000, [rise](History::Look& look, double share) {
+            look.energy_j = share < 0.9 ? 1.0 - share : 0.1 * (1.0 + rise);
+        });
+    };
+    EXPECT_FALSE(energy_never_rises()(kink(0.0)));
+    EXPECT_TRUE(energy_never_rises()(kink(0.05)));
+}
+
+TEST(Criterion, AModeThatStaysIsFound) {
+    const auto left = [](double share) {
+        return with_looks(200, [share](History::Look& look, double) { look.energy_j = share; });
+    };
+    EXPECT_FALSE(energy_decays(100)(left(0.09)));
+    EXPECT_TRUE(energy_decays(100)(left(0.11)));
+}
+
+TEST(Criterion, VolumeIsBalancedAgainstTheMostThatFlowedIn) {
+    const auto leak = [](double net) {
+        return with_looks(100, [net](History::Look& look, double share) {
+            look.in_m3_s = share < 0.5 ? 1.0 : 0.0;
+            look.net_m3_s = net;
+        });
+    };
+    EXPECT_FALSE(volume_balances(0.01)(leak(0.009)));
+    EXPECT_TRUE(volume_balances(0.01)(leak(-0.011)));
+}
+
+TEST(Criterion, AFluidThatDrivesTheHandIsFound) {
+    History history = with_force(100, [](double) { return 1.0; });
+    for (History::Step& step : history.steps) step.bodies[0].velocity_m_s = {-0.1, 0.0, 0.0};
+    EXPECT_FALSE(gives_back_no_more()(history));
+    for (History::Step& step : history.steps) step.bodies[0].velocity_m_s = {0.1, 0.0, 0.0};
+    EXPECT_TRUE(gives_back_no_more()(history));
+}
+
+TEST(Criterion, AJumpOfTheForceIsFound) {
+    EXPECT_FALSE(force_is_continuous(0, 0.25, 5)(with_force(100, [](double t) { return std::sin(t); })));
+    EXPECT_TRUE(
+        force_is_continuous(0, 0.25, 5)(with_force(100, [](double t) { return t < 1.0 ? 1.0 : 0.7; })));
+}
+
+TEST(Criterion, AStepOfNoTimeMayNotChangeTheForce) {
+    History history = with_force(20, [](double) { return 1.0; });
+    history.steps[9].dt_s = 1e-9;
+    EXPECT_FALSE(no_time_no_news()(history));
+    history.steps[9].loads[0].force_n.x = 1.01;
+    EXPECT_TRUE(no_time_no_news()(history));
+    history.steps[9].loads[0].force_n.x = std::nan("");
+    EXPECT_TRUE(no_time_no_news()(history));
+}
+
+TEST(Criterion, TheHandIsLetGoInTime) {
+    const auto fading = [](double until_s) {
+        History history;
+        for (int ms = 1; ms <= 500; ++ms) {
+            const double t = 1e-3 * ms;
+            history.ticks.push_back({t, t < until_s ? 1.0 : 0.0, t < 0.2});
+        }
+        return history;
+    };
+    EXPECT_FALSE(hand_let_go(0.1)(fading(0.29)));
+    EXPECT_TRUE(hand_let_go(0.1)(fading(0.31)));
+}
+
+TEST(Criterion, ForcesAfterAResetAreComparedBitForBit) {
+    History history = with_force(30, [](double t) { return t; });
+    for (std::size_t n = 0; n < 30; ++n) {
+        history.steps[n].resets = static_cast<long>(n / 10);
+        history.steps[n].loads[0].force_n.x = static_cast<double>(n % 10);
+    }
+    EXPECT_FALSE(same_after_each_reset()(history));
+    history.steps[25].loads[0].force_n.x += 1e-15 * 8;
+    EXPECT_TRUE(same_after_each_reset()(history));
+}
+
+TEST(Criterion, ALineBesideThoseOfTheMotionIsFound) {
+    const auto shaken = [](double other) {
+        return with_force(400, [other](double t) {
+            return std::sin(20.0 * std::numbers::pi * t) + other * std::sin(26.0 * std::numbers::pi * t);
+        });
+    };
+    EXPECT_FALSE(no_other_lines(10.0)(shaken(0.04)));
+    EXPECT_TRUE(no_other_lines(10.0)(shaken(0.06)));
+}
+
+TEST(Criterion, OfAllTheFirstThatFailsIsNamed) {
+    const auto says = [](const char* text) {
+        return Criterion(
+            [text](const History&) { return text ? std::optional<std::string>(text) : std::nullopt; });
+    };
+    EXPECT_EQ(all_of({says(nullptr), says("a"), says("b")})({}), "a");
+    EXPECT_EQ(all_of({says(nullptr)})({}), std::nullopt);
+}
+
+}  // namespace
+}  // namespace eddy::stability
