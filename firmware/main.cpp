@@ -294,7 +294,38 @@ struct CommandLine {
         resume->needs(out);
         merge->needs(out);
         merge->excludes(shard)->excludes(resume);
-        verb->footer("Exit status 1 if a cell is red.");
+        auto* fuzz = verb->add_option("--fuzz", stability.fuzz,
+                                      "in place of the cases: so many scenes that chance makes, 200 steps "
+                                      "each; those that break "
+                                      "the rule are made as small as they get and written to --out")
+                         ->check(CLI::Range(1, 1000000));
+        verb->add_option("--seed", stability.seed,
+                         "of the first random scene; each has a seed of its own [1]")
+            ->needs(fuzz);
+        auto* endless =
+            verb->add_option(
+                    "--endless", stability.endless,
+                    "in place of the cases: a scene for so many steps, alone and with somebody who stirs; "
+                    "whether memory, smoke or force drift")
+                ->check(CLI::Range(1L, 1000000000L));
+        verb->add_option("--scene", stability.scene, "for --endless: shipped scene or file [stir]")
+            ->needs(endless);
+        verb->add_option("--set", stability.set,
+                         "change a key of that scene: --set solver.dt_s=0.01; may be repeated")
+            ->type_name("KEY=VALUE")
+            ->needs(endless);
+        fuzz->excludes(endless);
+        for (auto* cases_only : {quick, full, shard, resume, merge}) {
+            cases_only->excludes(fuzz);
+            cases_only->excludes(endless);
+        }
+        verb->footer(
+            "  eddy stability --quick                             what holds on this machine, in three "
+            "minutes\n"
+            "  eddy stability --case stall+cup --grid 25          two cases at once\n"
+            "  eddy stability --fuzz 1000 --seed 1 --out fuzz     random scenes\n"
+            "  eddy stability --endless 100000 --set tank.cells=[16,16,16]\n"
+            "Exit status 1 if a cell is red, a scene breaks the rule or something drifts.");
     }
 
     /// CLI11 would call an unknown verb a missing one.
@@ -313,6 +344,11 @@ struct CommandLine {
         return accuracy.sweep ? sweep_accuracy(accuracy) : validate(accuracy);
     }
 
+    int act_on_stability() {
+        if (stability.fuzz) return fuzz_scenes(stability);
+        return stability.endless ? run_endlessly(stability) : test_stability(stability);
+    }
+
     int act() {
         if (app.got_subcommand("run")) return eddy::run(run);
         if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
@@ -321,7 +357,7 @@ struct CommandLine {
             return bench.paper.empty() ? eddy::bench(bench) : bench_paper(bench);
         }
         if (app.got_subcommand("accuracy")) return act_on_accuracy();
-        if (app.got_subcommand("stability")) return test_stability(stability);
+        if (app.got_subcommand("stability")) return act_on_stability();
         if (app.got_subcommand("tune")) return eddy::tune(tune);
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);

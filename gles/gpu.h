@@ -44,6 +44,7 @@ class Gpu {
 
     /// Framebuffer with these colour attachments (0 to 3), made once.
     unsigned framebuffer(const std::vector<const Texture*>& targets);
+    std::size_t framebuffers() const { return framebuffers_.size(); }
     /// Gives back to the driver the textures of the pool that nobody holds: after work on other grids than those that go on. What
     /// a fluid that goes on needs for a step only, its next step makes anew.
     void free_idle_textures();

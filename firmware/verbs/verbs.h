@@ -66,9 +66,18 @@ struct StabilityOptions {
     bool resume = false;             ///< go on where the CSV in `out` ends
     std::vector<std::string> merge;  ///< folders of all parts, to be put together
     std::string out;                 ///< folder for CSV, report and picture; empty: none
+    std::optional<int> fuzz;         ///< in place of the cases: so many random scenes
+    std::uint64_t seed = 1;          ///< of the first of them
+    std::optional<long> endless;     ///< in place of the cases: a scene for so many steps
+    std::string scene = "stir";      ///< for that: shipped scene or file
+    std::vector<std::string> set;    ///< "key=value" over its file
 };
 /// 1 too if a cell is red.
 int test_stability(const StabilityOptions& options);
+/// 1 too if a scene broke the rule.
+int fuzz_scenes(const StabilityOptions& options);
+/// 1 too if something drifts.
+int run_endlessly(const StabilityOptions& options);
 
 enum class ClockChoice { Real, Stepped };
 

@@ -1,0 +1,132 @@
+#include "firmware/stability/long_run.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include "firmware/haptic/loop.h"
+#include "firmware/show.h"
+#include "gles/grid_io.h"
+#include "hal/haptic/emulated/make_emulated_falcon.h"
+#include "hal/haptic/emulated/person_motion.h"
+
+namespace eddy::stability {
+namespace {
+
+constexpr Seconds kVisit{120.0};  ///< after which PersonMotion repeats
+/// Means over a whole visit may differ by this share of the greatest: the flow is never twice the same.
+constexpr double kForceDrift = 0.05;
+constexpr double kMemoryDriftMib = 1.0;
+
+double resident_mib() {
+    long pages = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> pages >> resident;
+    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+double sum(const std::vector<float>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// The sums over the steps since the last sample.
+struct Sums {
+    long steps = 0, ticks = 0;
+    double force_n = 0.0, sent_n = 0.0;
+};
+
+LongRunSample sample(gles::Gpu& gpu, const Show& show, const Sums& sums) {
+    const gles::Fluid& fluid = show.fluid();
+    const double volume_m3 = std::pow(fluid.setup().cell_m, 3);
+    LongRunSample s;
+    s.steps = show.figures().steps;
+    const std::vector<float> p = fluid.pressure();
+    s.pressure_mean_pa = sum(p) / static_cast<double>(p.size());
+    if (const gles::Field<gles::Cells>* smoke = fluid.smoke())
+        s.smoke_total_m3 =
+            volume_m3 * sum(gles::unpack_scalars(smoke->texture().download(), smoke->layout()));
+    for (const glm::vec3& u : fluid.velocity())
+        s.kinetic_energy_j +=
+            0.5 * fluid.setup().density_kg_m3 * volume_m3 * static_cast<double>(glm::dot(u, u));
+    s.force_mean_n = sums.force_n / static_cast<double>(std::max(1L, sums.steps));
+    s.sent_mean_n = sums.sent_n / static_cast<double>(std::max(1L, sums.ticks));
+    s.memory_mib = resident_mib();
+    s.texture_mib = static_cast<double>(gpu.textures().bytes()) / (1024.0 * 1024.0);
+    s.textures_made = gpu.textures().made();
+    s.programs = gpu.programs().linked();
+    s.framebuffers = gpu.framebuffers();
+    return s;
+}
+
+}  // namespace
+
+std::vector<LongRunSample> long_run(gles::Gpu& gpu, const Scene& scene, Visitor visitor, long steps,
+                                    const std::function<void(long step)>& on_step) {
+    HapticExchange exchange;
+    Show show(gpu, scene, exchange);
+    exchange.orders.publish(orders_for(scene, show.fluid().setup()));
+    const std::unique_ptr<HapticDevice> hand =
+        visitor == Visitor::Stirs ? emulated::make_emulated_falcon(
+                                        std::make_unique<emulated::PersonMotion>(emulated::PersonSettings{}))
+                                  : nullptr;
+    TickTrace trace(1000);
+    std::optional<HapticLoop> loop;
+    if (hand) loop.emplace(*hand, exchange, trace);
+    std::vector<TickRecord> ticks(1000);
+
+    const Instant period = std::chrono::duration_cast<Instant>(Seconds(scene.solver.dt_s));
+    const long a_visit = std::lround(kVisit / Seconds(scene.solver.dt_s));
+    std::vector<LongRunSample> samples;
+    Sums sums;
+    Instant tick{0};
+    for (long step = 1; step <= steps; ++step) {
+        const Instant now = step * period;
+        for (; tick < now; tick += kTick)
+            if (loop) loop->tick(tick);
+        if (step > 1) show.publish(true);
+        show.update(now, Seconds(scene.solver.dt_s), false);
+        sums.force_n += glm::length(exchange.fluid.newest().force_n);
+        ++sums.steps;
+        while (const std::size_t count = trace.drain(ticks)) {
+            for (std::size_t i = 0; i < count; ++i) sums.sent_n += glm::length(ticks[i].sent_force_n);
+            sums.ticks += static_cast<long>(count);
+        }
+        if (step % a_visit == 0) {
+            if (step > a_visit) samples.push_back(sample(gpu, show, sums));
+            sums = {};
+        }
+        if (on_step) on_step(step);
+    }
+    return samples;
+}
+
+std::vector<std::string> drifts(const std::vector<LongRunSample>& samples) {
+    if (samples.size() < 2) return {"there are not two samples to compare: run for longer"};
+    const LongRunSample &first = samples.front(), &last = samples.back();
+    std::vector<std::string> found;
+    double most_n = 0.0, most_sent_n = 0.0;
+    for (const LongRunSample& s : samples) {
+        if (!std::isfinite(s.pressure_mean_pa + s.smoke_total_m3 + s.kinetic_energy_j + s.force_mean_n))
+            found.push_back(fmt::format("after {} steps something is not a number", s.steps));
+        most_n = std::max(most_n, s.force_mean_n);
+        most_sent_n = std::max(most_sent_n, s.sent_mean_n);
+    }
+    const auto compare = [&](const char* what, double before, double after, double allowed) {
+        if (!(std::abs(after - before) <= allowed))
+            found.push_back(fmt::format("{}: {:.4g}, then {:.4g}", what, before, after));
+    };
+    compare("mean force [N]", first.force_mean_n, last.force_mean_n, kForceDrift * most_n);
+    compare("mean force on the hand [N]", first.sent_mean_n, last.sent_mean_n, kForceDrift * most_sent_n);
+    compare("memory [MiB]", first.memory_mib, std::max(first.memory_mib, last.memory_mib), kMemoryDriftMib);
+    const auto same = [&](const char* what, std::size_t before, std::size_t after) {
+        if (before != after) found.push_back(fmt::format("{}: {}, then {}", what, before, after));
+    };
+    same("textures made", first.textures_made, last.textures_made);
+    same("programs", first.programs, last.programs);
+    same("framebuffers", first.framebuffers, last.framebuffers);
+    return found;
+}
+
+}  // namespace eddy::stability
