@@ -2,6 +2,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "firmware/input_error.h"
@@ -15,6 +16,12 @@ namespace {
 
 /// Nodes of a mesh's distance grid along its longest side.
 constexpr int kMeshNodes = 64;
+
+/// Of a scene's own step: in a shorter one, rounding errors in the velocities, divided by its length, are all the force there
+/// is (1e-7 of 0.1 m/s over 20 us weighs as much as 1 m/s2).
+constexpr double kShortestShare = 1e-3;
+/// A longer step is no step of an exhibit; a scene that wants one says so.
+constexpr double kLongestStepS = 0.1;
 
 gles::SolverSetup solver_setup(const Scene::Solver& solver) {
     gles::SolverSetup s;
@@ -143,6 +150,8 @@ gles::FluidSetup fluid_setup(const Scene& scene) {
     s.density_kg_m3 = scene.fluid.density_kg_m3;
     s.viscosity_pa_s = scene.fluid.viscosity_pa_s;
     s.gravity_m_s2 = scene.fluid.gravity_m_s2;
+    s.shortest_step_s = kShortestShare * scene.solver.dt_s;
+    s.longest_step_s = std::max(kLongestStepS, scene.solver.dt_s);
     std::string all_glsl;
     const auto walls = scene.tank.walls.all();
     for (std::size_t i = 0; i < walls.size(); ++i) s.walls[i] = wall_setup(*walls[i], all_glsl);

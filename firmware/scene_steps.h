@@ -1,6 +1,5 @@
 #pragma once
 #include <memory>
-#include <optional>
 
 #include "firmware/body_schedule.h"
 #include "gles/fluid/fluid.h"
@@ -14,15 +13,13 @@ class SceneSteps {
 
     /// Asks the GPU for the next one.
     void take(bool diagnose = false);
-    /// What came of the oldest step not yet waited for; nothing of one that measured nothing. Throws GlError if the GPU has
-    /// stopped answering.
-    std::optional<gles::StepResult> wait();
+    /// What came of the oldest step not yet waited for. Throws GlError if the GPU has stopped answering.
+    gles::StepResult wait();
 
   private:
     BodySchedule motions_;
     std::unique_ptr<gles::Fluid> fluid_;
     double dt_s_;
-    bool answers_;  ///< steps measure a force or torque, whether or not they are diagnosed
 };
 
 }  // namespace eddy

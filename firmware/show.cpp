@@ -13,6 +13,11 @@ namespace {
 constexpr double kWallGapCells = 1.5;
 /// The fluid's period is smoothed over about this many updates.
 constexpr double kPeriodMemory = 8.0;
+/// Steps that an update takes at most.
+constexpr double kMostParts = 4.0;
+/// A hand that moves faster than this was not followed by the device. The gate cuts the force off from 1 m/s on; hands that
+/// hit a ball reach ten times that, but with no Falcon in them.
+constexpr double kFastestFollowedMS = 3.0;
 
 /// What the held body fills around its centre, however it turns in the hand if it does; nothing if none is held.
 gles::Extent held_extent(const Scene& scene, const gles::FluidSetup& fluid) {
@@ -98,29 +103,53 @@ void Show::set_quality(const Quality& quality) {
     handover_.begin();
 }
 
+int Show::parts_of(Seconds dt) const {
+    if (figures_.steps == 0) return 1;
+    const double usual_s = std::max(scene_.solver.dt_s, figures_.fluid_period_s);
+    // guard sub_steps: a machine that is always slow cannot take more steps, but one that was held up once can
+    return static_cast<int>(std::clamp(std::round(dt.count() / usual_s), 1.0, kMostParts));
+}
+
 void Show::update(Instant now, Seconds dt, bool diagnose) {
     const PoseSnapshot pose = exchange_.pose.newest();
     const double interval = figures_.steps > 0 ? Seconds(now - last_).count() : dt.count();
-    time_s_ += dt.count();
-    const std::vector<gles::BodyState> before = states_;
-    states_ = motions_.at(time_s_, dt.count());
-    if (const auto held = motions_.held()) {
-        gles::BodyState& body = states_[*held];
-        body.centre_m = pose.known ? pose.position_m : before[*held].centre_m;
-        // Of the displacement, not of the handle: what the body pushes away must agree with where it goes. But the
-        // first position after a gap (a device that has just come, a stall of the fluid) is where the hand happens
-        // to be, not a movement: the body is placed there, at rest.
-        const bool moved = pose.known && hand_known_ && interval <= 1.5 * dt.count();
-        body.velocity_m_s = moved ? (body.centre_m - before[*held].centre_m) / dt.count() : glm::dvec3(0.0);
-        hand_known_ = pose.known;
+    const int parts = parts_of(dt);
+    const Seconds part = dt / parts;
+    const auto held = motions_.held();
+    const glm::dvec3 from = held ? states_[*held].centre_m : glm::dvec3(0.0);
+    const glm::dvec3 to = pose.known ? pose.position_m : from;
+    // Of the displacement, not of the handle: what the body pushes away must agree with where it goes. But the
+    // first position after a gap (a device that has just come, a stall of the fluid) is where the hand happens
+    // to be, not a movement, and neither is a leap that no hand makes: the body is placed there, at rest.
+    const bool follows = pose.known && hand_known_ && interval <= 1.5 * dt.count();
+    const double fastest_m_s = kFastestFollowedMS * scene_.haptics.workspace_scale;
+    const bool leaps = follows && glm::length(to - from) > fastest_m_s * dt.count();  // guard hand_leap
+    if (leaps) ++figures_.placed;
+    for (int n = 1; n <= parts; ++n) {
+        time_s_ += part.count();
+        states_ = motions_.at(time_s_, part.count());
+        if (held) {
+            gles::BodyState& body = states_[*held];
+            const bool moved = follows && !leaps;
+            body.centre_m = n < parts && moved ? glm::mix(from, to, static_cast<double>(n) / parts) : to;
+            body.velocity_m_s = moved ? (to - from) / dt.count() : glm::dvec3(0.0);
+        }
+        fluid_->step(part.count(), states_, diagnose && n == parts);
+        if (!fluid_->bodies().empty()) states_ = fluid_->bodies();  // none if no step could be made of it
     }
+    hand_known_ = held && pose.known;
     figures_.fluid_period_s +=
         (interval - figures_.fluid_period_s) / (figures_.steps > 0 ? kPeriodMemory : 1.0);
     last_ = now;
     ++figures_.steps;
-    fluid_->step(dt.count(), states_, diagnose);
-    states_ = fluid_->bodies();
+    figures_.sub_steps += parts - 1;
     computed_for_[fluid_->steps()] = pose.time;
+}
+
+gles::GuardCounts Show::guards() const {
+    gles::GuardCounts all;
+    for (const auto& [quality, fluid] : fluids_) all += fluid->guards();
+    return all;
 }
 
 void Show::rest(Instant now) {
@@ -152,10 +181,17 @@ void Show::publish(bool wait) {
             const double mass_kg = scene_.fluid.density_kg_m3 * size_m.x * size_m.y * size_m.z;
             figures_.fluid_speed_m_s = std::sqrt(2.0 * result->diagnostics->kinetic_energy_j / mass_kg);
         }
-        const Instant computed_for = computed_for_[result->step];
+        const auto asked = computed_for_.find(result->step);
+        const std::optional<Instant> known =
+            asked != computed_for_.end() ? std::optional(asked->second) : std::nullopt;
         computed_for_.erase(computed_for_.begin(), computed_for_.upper_bound(result->step));
+        figures_.fastest_m_s = result->health.fastest_m_s;
         const auto held = motions_.held();
-        if (!held) continue;
+        // Of an update's several steps, the last is the answer.
+        if (!held || !known) continue;
+        const Instant computed_for = *known;
+        // guard force_withheld: the last good force stands, and fades if no other comes (haptic/law.h)
+        if (!result->is_sound()) continue;
         const gles::Load load = handover_.hand_on(result->loads[*held], computed_for);
         answer_ = {load.force_n, load.torque_nm, answer_.sequence + 1, computed_for,
                    Seconds(figures_.fluid_period_s)};

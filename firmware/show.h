@@ -21,6 +21,9 @@ struct ShowFigures {
     double divergence_after_1_s = 0.0;
     std::optional<double> fluid_speed_m_s{};  ///< rms over the tank, of that step
     long rested = 0;                          ///< updates left out because nothing moved
+    long placed = 0;     ///< updates in which the hand's body was put where the hand is, not moved there
+    long sub_steps = 0;  ///< steps taken beyond one for each update, to make up for a stall
+    double fastest_m_s = 0.0;  ///< of the fluid, as the last step found it
 };
 
 /// The fluid side of the exhibit: takes the newest pose of the hand, moves the fluid on, gives the force
@@ -44,7 +47,8 @@ class Show {
     const Quality& quality() const { return quality_; }
     /// In place of an update, while nothing moves: the last force stays the answer.
     void rest(Instant now);
-    /// One fluid update of dt ending at `now`; `diagnose` also measures the whole tank.
+    /// One fluid update of dt ending at `now`; `diagnose` also measures the whole tank. After a stall, several steps, along which
+    /// the hand's body goes evenly from where it was.
     void update(Instant now, Seconds dt, bool diagnose);
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
     void publish(bool wait);
@@ -55,12 +59,16 @@ class Show {
     const gles::Fluid& fluid() const { return *fluid_; }
     const std::vector<gles::BodyState>& bodies() const { return states_; }
     const ShowFigures& figures() const { return figures_; }
+    /// What the guards did in all fluids of this show.
+    gles::GuardCounts guards() const;
     /// How the force on the hand trembles, after gain [N]; worked out when asked.
     std::optional<ForceRipple::Figures> ripple() const { return ripple_.figures(); }
 
   private:
     gles::Fluid& made(const Quality& quality);
     void take_a_step(gles::Fluid& fluid) const;
+    /// How many steps make up for dt.
+    int parts_of(Seconds dt) const;
 
     gles::Gpu& gpu_;
     Scene scene_;

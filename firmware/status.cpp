@@ -49,7 +49,17 @@ bool write_status(const std::filesystem::path& file, const Status& s) {
                   {"period_s", s.show.fluid_period_s},
                   {"divergence_before_1_s", s.show.divergence_before_1_s},
                   {"divergence_after_1_s", s.show.divergence_after_1_s},
+                  {"fastest_m_s", s.show.fastest_m_s},
+                  {"sub_steps", s.show.sub_steps},
                   {"most_force_n", s.show.most_force_n}};
+    j["guards"] = {{"step_refused", s.guards.step_refused},
+                   {"step_shortened", s.guards.step_shortened},
+                   {"body_not_finite", s.guards.body_not_finite},
+                   {"body_not_unit", s.guards.body_not_unit},
+                   {"body_far", s.guards.body_far},
+                   {"body_too_fast", s.guards.body_too_fast},
+                   {"unsound_steps", s.guards.unsound_steps},
+                   {"hand_placed", s.show.placed}};
     j["cost"] = to_json(s.cost);
     const HapticCounters& c = s.loop.device_counters;
     j["haptics"] = {{"device", s.haptic_device},

@@ -13,6 +13,7 @@ struct Status {
     std::string scene, renderer, display, haptic_device;
     double uptime_s = 0.0;
     ShowFigures show;
+    gles::GuardCounts guards;
     LoopReport loop;
     CostFigures cost;
 };

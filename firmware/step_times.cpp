@@ -36,7 +36,7 @@ StepTimes time_steps(gles::Gpu& gpu, const Scene& scene, int repeats) {
         stopwatch.set_on(false);
 
         steps.take(true);
-        const gles::Diagnostics d = *steps.wait().value().diagnostics;
+        const gles::Diagnostics d = *steps.wait().diagnostics;
         if (d.divergence_max_1_s > 0.0) cuts.push_back(d.divergence_before_1_s / d.divergence_max_1_s);
     }
     times.step = timer.times();

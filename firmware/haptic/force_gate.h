@@ -47,7 +47,7 @@ inline constexpr double kDeviceMaxForceN = 8.0;
 /// A handle faster than this has slipped or been thrown.
 inline constexpr double kFastestHandMS = 1.0;
 inline constexpr Seconds kSoftStart{1.0};
-inline constexpr Seconds kFade{0.100};
+inline constexpr Seconds kFade{0.040};  ///< of a force that nobody computes any more (law.h)
 /// Motors hold the last force while a tick is late; the first tick after must not spend the whole gap in one
 /// step.
 inline constexpr Seconds kLongestRise{0.005};

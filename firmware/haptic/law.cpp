@@ -26,9 +26,9 @@ PoseSnapshot pose_in_tank(const LawState& state, const HapticInput& in, bool kno
 /// Age counts from arrival, not from computed_for: solving and reading back take two fluid periods of their
 /// own, and a fluid that answers steadily, however late, is alive.
 bool is_stale(const FluidSnapshot& fluid, Instant age) {
-    const Seconds three_periods = kFluidPeriodsAllowed * fluid.fluid_period;
-    const Seconds allowed =
-        std::isfinite(three_periods.count()) ? std::max(kFluidTimeout, three_periods) : kFluidTimeout;
+    const Seconds periods = kFluidPeriodsAllowed * fluid.fluid_period;
+    const Seconds allowed = std::isfinite(periods.count()) ? std::max(kFluidTimeout, periods) : kFluidTimeout;
+    // guard stale_force
     return fluid.sequence == 0 || Seconds(age) > allowed;
 }
 

@@ -11,9 +11,11 @@ namespace eddy {
 /// A device that has answered before and is silent this long is lost: zero at once, latched (libfranka gives
 /// up after 20 missed replies at 1 kHz).
 inline constexpr Seconds kReplyTimeout{0.020};
-/// A fluid snapshot older than this, and older than three fluid periods, is stale: the force fades out.
-inline constexpr Seconds kFluidTimeout{0.100};
-inline constexpr double kFluidPeriodsAllowed = 3.0;
+/// A fluid snapshot older than this, and older than four fluid periods, is stale: the force fades out (kFade). An answer that
+/// comes three periods late is in time; when none comes, at 50 steps a second the force is 0 within 100 ms of when it was
+/// due, at 75 within 100 ms of the last.
+inline constexpr Seconds kFluidTimeout{0.050};
+inline constexpr double kFluidPeriodsAllowed = 4.0;
 
 /// Time between ticks when none is late.
 inline constexpr Seconds kNominalTick{0.001};

@@ -314,7 +314,7 @@ void Run::report(Instant now, bool force) {
     status_due_ = now + 1s;
     write_status(status_file_,
                  {scene_.title, graphics_->gpu.capabilities().renderer, graphics_->display->describe(),
-                  device_name_, Seconds(now).count(), show_.figures(), loop_report_, cost()});
+                  device_name_, Seconds(now).count(), show_.figures(), show_.guards(), loop_report_, cost()});
 }
 
 /// Both loops on their own threads and the machine's clock, as a visitor meets them.

@@ -11,6 +11,8 @@
 // A coarse cell of fluid that is walled in makes the cycles diverge.
 //
 // Fine faces beyond an odd edge of the grid do not exist and count as closed.
+#include "open.glsl"
+
 uniform sampler2D ax, ay, az;
 
 layout(location = 0) out vec4 out_ax;
@@ -22,8 +24,8 @@ const float kFloor = 1e-3;
 // Eight consecutive z of a fine face column: slabs 2s and 2s+1.
 void column(sampler2D f, ivec3 c, out vec4 low, out vec4 high) {
     bool inside = all(lessThan(c.xy, FINE.size.xy));
-    low = inside ? at_clamped(f, FINE, c) : vec4(0.0);
-    high = inside ? at_clamped(f, FINE, c + ivec3(0, 0, 1)) : vec4(0.0);
+    low = inside ? share(at_clamped(f, FINE, c)) : vec4(0.0);
+    high = inside ? share(at_clamped(f, FINE, c + ivec3(0, 0, 1))) : vec4(0.0);
     vec4 z = float(4 * c.z) + vec4(0.0, 1.0, 2.0, 3.0);
     low *= vec4(lessThan(z, vec4(FINE_LAYERS)));
     high *= vec4(lessThan(z + 4.0, vec4(FINE_LAYERS)));
@@ -77,7 +79,7 @@ void main() {
         column(az, f + d, l, h);
         vec4 link = vec4(l.xz, h.xz);
 #ifdef THIN
-        vec4 below = f.z > 0 ? at_clamped(az, FINE, ivec3((f + d).xy, f.z - 1)) : l.xxxx;
+        vec4 below = f.z > 0 ? share(at_clamped(az, FINE, ivec3((f + d).xy, f.z - 1))) : l.xxxx;
         link = one_after_the_other(vec4(below.z, l.xz, h.x), vec4(below.w, l.yw, h.y), link);
 #endif
         out_az += exists(f.x + d.x, n.x) * exists(f.y + d.y, n.y) * 0.25 * link;

@@ -65,6 +65,10 @@ Variant coarse_variant(const glm::ivec3& fine, const std::vector<BodySetup>& bod
     return v;
 }
 
+bool is_boxed(const glm::ivec3& grid) {
+    return std::min({grid.x, grid.y, grid.z}) >= kBoxedFrom;
+}
+
 }  // namespace
 
 bool any_thin_body(const std::vector<BodySetup>& bodies, double cell_m) {
@@ -116,10 +120,13 @@ void Fractions::update(const BodyUniforms& bodies, const std::vector<Box>& boxes
     std::vector<Region> coarse;
     for (std::size_t l = 0; l < coarsen_.size(); ++l) {
         std::vector<Box> faces;
-        for (Box& box : cells) faces.push_back((box = box.coarsen()).faces());
-        coarse.push_back(Region::packed(faces));
+        // As far as the pressure's sweeps of that grid look.
+        for (Box& box : cells) faces.push_back((box = box.coarsen().grow(1)).faces());
+        // guard fractions
+        coarse.push_back(is_boxed(grids_[l + 1]) ? Region::packed(faces) : Region::everything());
     }
-    draw(bodies, Region::packed(touched), coarse);
+    draw(bodies, is_boxed(grids_[0]) ? Region::packed(touched) : Region::everything(),
+         coarse);  // guard fractions
 }
 
 void Fractions::draw(const BodyUniforms& bodies, const Region& finest, const std::vector<Region>& coarse) {

@@ -21,8 +21,12 @@ struct FaceFractions {
 /// anywhere, counts if it is so everywhere.
 bool any_thin_body(const std::vector<BodySetup>& bodies, double cell_m);
 
+/// Grids whose shortest side has fewer cells than this are read as if bodies could be anywhere; larger ones only in the boxes
+/// around them.
+inline constexpr int kBoxedFrom = 24;
+
 /// Face fractions on the finest grid and on the coarse grids of the pressure solver. Only the boxes where a
-/// body is or was are drawn each step; everywhere else the fractions stay 1.
+/// body is or was are drawn each step, and what is read everywhere; in all the rest the fractions stay 1.
 class Fractions {
   public:
     /// `grids`: cells of each level, finest first.

@@ -9,6 +9,8 @@
 // closed face has nothing to give. This gain is smooth and leaves closed faces closed; where a flat surface lies along the
 // grid (shares 0, s, 1) it moves s (1 - s) / 4, on average over s the 1/24 that f'' would. What one face gains its
 // neighbour gives, so a row's sum stays what it was, and with it the body's volume.
+#include "open.glsl"
+
 uniform sampler2D ax, ay, az;
 
 layout(location = 0) out vec4 out_ax;
@@ -21,17 +23,17 @@ vec4 gain(vec4 here, vec4 there) {
 }
 
 vec4 sharpened(sampler2D a, ivec3 c, ivec3 e) {
-    vec4 here = at(a, TARGET, c);
-    return here + gain(here, at_clamped(a, TARGET, c + e)) + gain(here, at_clamped(a, TARGET, c - e));
+    vec4 here = share(at(a, TARGET, c));
+    return here + gain(here, share(at_clamped(a, TARGET, c + e))) + gain(here, share(at_clamped(a, TARGET, c - e)));
 }
 
 void main() {
     ivec3 c = cell_here(TARGET);
     out_ax = sharpened(ax, c, ivec3(1, 0, 0));
     out_ay = sharpened(ay, c, ivec3(0, 1, 0));
-    vec4 z = at(az, TARGET, c);
-    vec4 below = vec4(at_clamped(az, TARGET, c - ivec3(0, 0, 1)).w, z.xyz);
-    vec4 above = vec4(z.yzw, at_clamped(az, TARGET, c + ivec3(0, 0, 1)).x);
+    vec4 z = share(at(az, TARGET, c));
+    vec4 below = vec4(share(at_clamped(az, TARGET, c - ivec3(0, 0, 1))).w, z.xyz);
+    vec4 above = vec4(z.yzw, share(at_clamped(az, TARGET, c + ivec3(0, 0, 1))).x);
     if (c.z == 0) below.x = z.x;  // beyond the tank there is nothing to give
     if (c.z + 1 == TARGET.size.z) above.w = z.w;
     out_az = z + gain(z, above) + gain(z, below);

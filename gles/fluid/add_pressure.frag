@@ -6,9 +6,12 @@
 //
 // The last term takes back what the viscous step did to the part of the velocity that the projection removed: the
 // rotational form of Timmermans, Minev, van de Vosse 1996, Int. J. Numer. Meth. Fluids 22.
+#include "guard.glsl"
+
 uniform sampler2D phi, increment, b;
 uniform float scale;   // of phi: phi ~ dt p, and the step may be of another length than the last
 uniform float lambda;  // nu dt / h^2
+uniform float most_phi;
 
 out vec4 result;
 
@@ -30,5 +33,5 @@ void main() {
 #ifdef THROUGH
     taken_back *= no_opening(c);
 #endif
-    result = scale * at(phi, TARGET, c) + at(increment, TARGET, c) - taken_back;
+    result = scale * kept(at(phi, TARGET, c), most_phi) + at(increment, TARGET, c) - taken_back;  // guard guess
 }

@@ -6,6 +6,7 @@
 // fetches 17
 #include "velocity.glsl"
 #include "beyond.glsl"
+#include "guard.glsl"
 
 uniform sampler2D velocity;
 #ifdef CARRIER
@@ -21,7 +22,8 @@ void main() {
     ivec3 c = cell_here(FACES);
     FaceVelocities v = velocity_on_faces(carrier, c, at(carrier, FACES, c).xyz);
     vec3 s = vec3(c) + 0.5;
-    vec3 x = s - dt_h * v.x, y = s - dt_h * v.y, z = s - dt_h * v.z;
-    result = vec4(to_walls(sample_linear(velocity, FACES, x).x, 0, x), to_walls(sample_linear(velocity, FACES, y).y, 1, y),
-                  to_walls(sample_linear(velocity, FACES, z).z, 2, z), 0.0);
+    vec3 x = s - sound(dt_h * v.x, FARTHEST), y = s - sound(dt_h * v.y, FARTHEST), z = s - sound(dt_h * v.z, FARTHEST);  // guard carrier
+    vec3 u = vec3(sample_linear(velocity, FACES, x).x, sample_linear(velocity, FACES, y).y, sample_linear(velocity, FACES, z).z);
+    u = sound(u, FARTHEST / dt_h);  // guard velocity
+    result = vec4(to_walls(u.x, 0, x), to_walls(u.y, 1, y), to_walls(u.z, 2, z), 0.0);
 }

@@ -9,6 +9,7 @@
 #include "velocity.glsl"
 #include "sources.glsl"
 #include "beyond.glsl"
+#include "guard.glsl"
 
 uniform sampler2D velocity, scalar;
 uniform float dt_h;  // dt / h  [s/m]
@@ -23,6 +24,7 @@ out float result;
 void main() {
     ivec3 c = cell_here(TARGET);
     vec3 x = vec3(c) + 0.5;
-    vec3 s = x - dt_h * velocity_in_cell(velocity, c);
-    result = remains * from_inside(s) * sample_linear(scalar, TARGET, s).x + from_sources(x);
+    vec3 s = x - sound(dt_h * velocity_in_cell(velocity, c), FARTHEST);                  // guard carrier
+    float carried = sound(from_inside(s) * sample_linear(scalar, TARGET, s).x, kMostScalar);  // guard scalar
+    result = remains * carried + from_sources(x);
 }

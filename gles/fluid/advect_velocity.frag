@@ -9,6 +9,7 @@
 // so one trilinear fetch brings all three.
 #include "velocity.glsl"
 #include "beyond.glsl"
+#include "guard.glsl"
 
 uniform sampler2D velocity;
 #ifdef CARRIER
@@ -22,7 +23,7 @@ out vec4 result;
 
 void main() {
     ivec3 c = cell_here(FACES);
-    vec3 s = vec3(c) + 0.5 - dt_h * velocity_in_cell(carrier, c);
-    vec3 u = sample_linear(velocity, FACES, s).xyz;
+    vec3 s = vec3(c) + 0.5 - sound(dt_h * velocity_in_cell(carrier, c), FARTHEST);  // guard carrier
+    vec3 u = sound(sample_linear(velocity, FACES, s).xyz, FARTHEST / dt_h);         // guard velocity
     result = vec4(to_walls(u.x, 0, s), to_walls(u.y, 1, s), to_walls(u.z, 2, s), 0.0);
 }

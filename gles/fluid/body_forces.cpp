@@ -34,11 +34,11 @@ Variant force_variant(const FluidSetup& setup) {
     if (setup.acceleration_m_s2) {
         const auto& f = setup.acceleration_m_s2->glsl;
         v.defines.emplace_back("FORCING", "");
-        v.declarations =
-            setup.formula_helpers + fmt::format(
-                                        "uniform float time;  // [s]\nvec3 forcing(vec3 cells) {{\n{}    "
-                                        "return vec3({}, {}, {});\n}}\n",
-                                        formula_variables(setup.cell_m, "time"), f[0], f[1], f[2]);
+        v.declarations = setup.formula_helpers + kWhereFinite +
+                         fmt::format(
+                             "uniform float time;  // [s]\nvec3 forcing(vec3 cells) {{\n{}    "
+                             "return where_finite(vec3({}, {}, {}));\n}}\n",
+                             formula_variables(setup.cell_m, "time"), f[0], f[1], f[2]);
     }
     return v;
 }
@@ -59,11 +59,13 @@ BodyForces::BodyForces(Gpu& gpu, const FluidSetup& setup)
     vorticity_.emplace(gpu, "vorticity", "gles/fluid/vorticity.frag", cells,
                        Variant{.layouts = {{"FACES", Faces::layout(setup.cells)}},
                                .defines = {{"CELLS", glsl(setup.cells)}}});
-    confinement_.emplace(gpu, "confinement", "gles/fluid/confinement.frag", cells);
+    confinement_.emplace(gpu, "confinement", "gles/fluid/confinement.frag", cells,
+                         Variant{.layouts = {{"FACES", Faces::layout(setup.cells)}}});
 }
 
 Field<Faces> BodyForces::add_to(const Field<Faces>& u, const Field<Cells>* smoke,
-                                const Field<Cells>* temperature, double time_s, double dt_s) {
+                                const Field<Cells>* temperature, double driven_m_s, double time_s,
+                                double dt_s) {
     std::vector<Input> inputs{{"velocity", &u.texture()}};
     std::vector<Uniform> uniforms{{"dt", static_cast<float>(dt_s)},
                                   {"gravity", glm::vec3(setup_->gravity_m_s2)},
@@ -78,7 +80,7 @@ Field<Faces> BodyForces::add_to(const Field<Faces>& u, const Field<Cells>* smoke
     }
     Field<Cells> confinement;
     if (confinement_) {
-        confinement = swirl(u);
+        confinement = swirl(u, driven_m_s);
         inputs.push_back({"swirl", &confinement.texture()});
     }
     Field<Faces> next(*gpu_, setup_->cells, Format::RGBA32F);
@@ -86,12 +88,14 @@ Field<Faces> BodyForces::add_to(const Field<Faces>& u, const Field<Cells>* smoke
     return next;
 }
 
-Field<Cells> BodyForces::swirl(const Field<Faces>& u) {
+Field<Cells> BodyForces::swirl(const Field<Faces>& u, double driven_m_s) {
     const Field<Cells> vorticity(*gpu_, setup_->cells, Format::RGBA32F);
     Field<Cells> force(*gpu_, setup_->cells, Format::RGBA32F);
     vorticity_->draw({{"velocity", &u.texture()}}, {}, {&vorticity.texture()});
-    confinement_->draw({{"vorticity", &vorticity.texture()}},
-                       {{"strength", static_cast<float>(setup_->confinement_1_s)}}, {&force.texture()});
+    confinement_->draw({{"vorticity", &vorticity.texture()}, {"velocity", &u.texture()}},
+                       {{"strength", static_cast<float>(setup_->confinement_1_s)},
+                        {"driven", static_cast<float>(driven_m_s)}},
+                       {&force.texture()});
     return force;
 }
 

@@ -16,12 +16,13 @@ class BodyForces {
     static bool needed(const FluidSetup& setup);
 
     /// u + dt (g (1 + w s - beta T) + f). `smoke` and `temperature`: null where the scene has none. `time_s`: of f.
+    /// `driven_m_s`: see Driven.
     Field<Faces> add_to(const Field<Faces>& u, const Field<Cells>* smoke, const Field<Cells>* temperature,
-                        double time_s, double dt_s);
+                        double driven_m_s, double time_s, double dt_s);
 
   private:
     /// The force of vorticity confinement.
-    Field<Cells> swirl(const Field<Faces>& u);
+    Field<Cells> swirl(const Field<Faces>& u, double driven_m_s);
 
     Gpu* gpu_;
     const FluidSetup* setup_;

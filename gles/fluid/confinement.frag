@@ -1,11 +1,17 @@
 // confinement.frag     f = eps (N x w),  N = grad |w| / |grad |w||        Fedkiw, Stam, Jensen 2001, section 5
 //
 // reads   vorticity  RGBA32F  Cells (nx, ny, nz)   [m/s]     w times h, and its length
+// reads   velocity   RGBA32F  Faces                [m/s]
 // writes  f          RGBA32F  Cells                [m/s^2]   at the centres of the cells
-// fetches 7
+// fetches 11
 //
 // Pushes around the middles of eddies what the transport has smoothed away. N is 0 where |w| has no slope to speak of.
-uniform sampler2D vorticity;
+// Fluid that is faster than 1.5 times what has lately driven it is pushed less, and from twice that on not at all: f goes with
+// the flow, and would feed it without end.
+#include "velocity.glsl"
+
+uniform sampler2D vorticity, velocity;
+uniform float driven;  // [m/s]
 uniform float strength;  // eps [1/s]
 
 out vec4 result;
@@ -18,5 +24,7 @@ void main() {
     vec4 w = at(vorticity, TARGET, c);
     float steepness = length(slope);
     vec3 n = slope / max(steepness, 1e-6 * w.w + 1e-20);
-    result = vec4(strength * cross(n, w.xyz), 0.0);
+    float speed = length(velocity_in_cell(velocity, c));
+    float share = 1.0 - smoothstep(1.5, 2.0, min(speed / max(driven, 1e-30), 3.0));  // guard confinement
+    result = vec4(share * strength * cross(n, w.xyz), 0.0);
 }

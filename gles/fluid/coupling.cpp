@@ -1,8 +1,10 @@
 #include "gles/fluid/coupling.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gles/fluid/resistance.h"
+#include "gles/fluid/step_guard.h"
 #include "gles/grid_io.h"
 
 namespace eddy::gles {
@@ -70,6 +72,11 @@ Field<Cells4> hydrostatic(Gpu& gpu, const FluidSetup& setup) {
 struct Coupling::Sums {
     std::vector<glm::vec4> texels;
     std::size_t bodies;
+
+    bool are_finite() const {
+        return std::all_of(texels.begin(), texels.end(),
+                           [](const glm::vec4& t) { return std::isfinite(t.x + t.y + t.z + t.w); });
+    }
 
     /// Load number `load`; component 0 to 2: force, 3 to 5: torque.
     double operator()(std::size_t load, std::size_t body, std::size_t component) const {
@@ -278,19 +285,24 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
 
 void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
     draw_potentials(states, step.a, step.boxes, step.since);
-    const LinearSystem system = newton(states, step, add_up(states, step));
-    const std::vector<double> change = contacts_.solve(system, states, unknowns_, step.dt_s);
+    const Sums sums = add_up(states, step);
+    // guard coupled_sums: what is not a number moves nobody
+    std::vector<double> change(3 * triples_.size(), 0.0);
+    if (sums.are_finite()) change = contacts_.solve(newton(states, step, sums), states, unknowns_, step.dt_s);
+    const double fastest_m_s = fastest_body_m_s(setup_, step.dt_s);
     for (std::size_t t = 0; t < triples_.size(); ++t) {
         Triple& triple = triples_[t];
         triple.change = {change[3 * t], change[3 * t + 1], change[3 * t + 2]};
         BodyState& state = states[bodies_[triple.body].index];
         const BodyState& old = before_[bodies_[triple.body].index];
         glm::dvec3 gained;
+        (triple.turns ? state.spin_rad_s : state.velocity_m_s) +=
+            triple.turns ? triple.change / setup_.cell_m : triple.change;
+        slow_down(state, setup_.bodies[bodies_[triple.body].index].shape,
+                  fastest_m_s);  // guard coupled_speed
         if (triple.turns) {
-            state.spin_rad_s += triple.change / setup_.cell_m;
             gained = setup_.cell_m * (state.spin_rad_s - old.spin_rad_s);
         } else {
-            state.velocity_m_s += triple.change;
             gained = state.velocity_m_s - old.velocity_m_s;
         }
         // What a wall or another body took is no sign of what comes next.

@@ -1,5 +1,6 @@
 #include "gles/fluid/cut_cell.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "gles/body/displacement.h"
@@ -40,6 +41,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
       pressure_(gpu, setup_.cells, fractions_ ? &*fractions_ : nullptr, walls_,
                 is_viscous() || setup_.solver.time_order == 2),
       projection_(gpu, setup_, walls_, fractions_ ? &*fractions_ : nullptr, body_uniforms_),
+      health_(gpu, setup_, u_.layout(), phi_.layout()),
       diagnosis_(gpu, setup_),
       results_(gpu, setup_) {
     if (is_viscous()) {
@@ -58,10 +60,10 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
     if (const auto heat = Scalar::temperature(setup_))
         temperature_.emplace(gpu, setup_, *heat, walls_, solids);
     if (BodyForces::needed(setup_)) body_forces_.emplace(gpu, setup_);
-    reset();
+    start_over();
 }
 
-void CutCellFluid::reset() {
+void CutCellFluid::start_over() {
     set_velocity(velocity_at_start(setup_));
     clear(phi_.texture());
     if (smoke_) smoke_->reset();
@@ -75,12 +77,17 @@ void CutCellFluid::reset() {
     time_s_ = 0.0;
 }
 
-void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool wants_diagnosis) {
+void CutCellFluid::move_on(double dt_s, const std::vector<BodyState>& given, bool wants_diagnosis) {
+    sound_ = sound(setup_, dt_s);
+    health_.draw(
+        {&u_.texture(), &phi_.texture(), diffused_ ? &diffused_.texture() : nullptr, smoke(), temperature()},
+        sound_, results_.row());
     // phi ~ dt p; before the first step there is none.
     guess_scale_ = dt_s_ > 0.0 ? static_cast<float>(dt_s / dt_s_) : 1.0f;
     dt_s_ = dt_s;
     std::vector<BodyState> bodies =
         coupling_ ? coupling_->predict(given, bodies_, dt_s) : given;  // x = x + dt U
+    driven_.go_on(bodies, time_s_, dt_s);
     const double start_s = time_s_;
     Field<Cells4> b;
     if (reflection_) {
@@ -101,7 +108,7 @@ void CutCellFluid::step(double dt_s, const std::vector<BodyState>& given, bool w
         Gpu::Stage stage(gpu_, "diagnose");
         diagnosis_.draw({u_, b, divergence(u_), smoke(), temperature()}, results_.row());
     }
-    if (traction_ || wants_diagnosis) {
+    {
         Gpu::Stage stage(gpu_, "read back");
         results_.request(step_, dt_s, wants_diagnosis);
     }
@@ -129,7 +136,8 @@ Field<Cells4> CutCellFluid::advance(Part part, double start_s, std::vector<BodyS
     if (body_forces_) {
         Gpu::Stage stage(gpu_, "body forces");
         // u* += dt (g (1 + w s - beta T) + f); of the halves, one has s, T and f of the step's start, one of its end
-        u = body_forces_->add_to(u, smoke(), temperature(), first_half ? start_s : end_s, dt_s);
+        u = body_forces_->add_to(u, smoke(), temperature(), driven_.speed_m_s(), first_half ? start_s : end_s,
+                                 dt_s);
     }
     keep(&StepVelocities::forced, u);
     time_s_ = end_s;
@@ -190,6 +198,7 @@ Pressure::Work CutCellFluid::place(const std::vector<BodyState>& bodies, float g
     }
     Pressure::Work work{.cycles = setup_.solver.cycles + (step_ == 0 ? kColdCycles : 0),
                         .guess_scale = guess_scale,
+                        .most_phi = sound_.most_phi,
                         .cut = boxes_,
                         .rough = boxes_};
     const std::vector<Box> jets = jets_.boxes(time_s_);
@@ -213,7 +222,7 @@ Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, const Pressure::Work& 
     keep(&StepVelocities::predicted, predicted);
     // The last step's result is a better guess than this step's right-hand side: at rest in a steady flow it is the
     // solution, whatever the cycles leave.
-    return viscosity_->diffuse(step_ == 0 ? predicted : diffused_, predicted, dt_s_,
+    return viscosity_->diffuse(step_ == 0 ? predicted : diffused_, sound_.fastest_m_s, predicted, dt_s_,
                                setup_.solver.viscous_cycles, walls_.time(time_s_));
 }
 
@@ -226,7 +235,9 @@ Field<Cells4> CutCellFluid::solve_pressure(Part part, const Field<Cells4>& b, co
     if (part == Part::SecondHalf) return reflection_->add(phi_, increment_);
     Field<Cells4> phi(gpu_, setup_.cells, Format::RGBA32F);
     add_pressure_->draw({{"phi", &phi_.texture()}, {"increment", &increment_.texture()}, {"b", &b.texture()}},
-                        {{"scale", work.guess_scale}, {"lambda", diffusion_number(setup_, dt_s_)}},
+                        {{"scale", work.guess_scale},
+                         {"most_phi", work.most_phi},
+                         {"lambda", diffusion_number(setup_, dt_s_)}},
                         {&phi.texture()});
     return phi;
 }
@@ -248,7 +259,7 @@ Field<Cells4> CutCellFluid::divergence(const Field<Faces>& u) {
 }
 
 Field<Faces> CutCellFluid::project(const Field<Faces>& u, const Field<Cells4>& phi, float scale) {
-    return projection_.project(u, phi, scale, boxes_, walls_.time(time_s_));
+    return projection_.project(u, phi, scale, sound_.most_phi, boxes_, walls_.time(time_s_));
 }
 
 std::vector<glm::vec3> CutCellFluid::velocity() const {
@@ -263,6 +274,10 @@ std::vector<float> CutCellFluid::pressure() const {
 }
 
 void CutCellFluid::set_velocity(const std::vector<glm::vec3>& u) {
+    double fastest = 0.0;
+    for (const glm::vec3& v : u)
+        fastest = std::max(fastest, static_cast<double>(glm::length(v)));  // not if it is nan
+    driven_.start(fastest);
     const std::vector<glm::vec4> texels = pack_vectors(u, u_.layout());
     u_.texture().upload(&texels[0].x);
 }

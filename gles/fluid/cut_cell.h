@@ -6,8 +6,10 @@
 #include "gles/fluid/body_forces.h"
 #include "gles/fluid/coupling.h"
 #include "gles/fluid/diagnosis.h"
+#include "gles/fluid/driven.h"
 #include "gles/fluid/fluid.h"
 #include "gles/fluid/force_methods.h"
+#include "gles/fluid/health.h"
 #include "gles/fluid/jets.h"
 #include "gles/fluid/pressure.h"
 #include "gles/fluid/projection.h"
@@ -28,10 +30,7 @@ class CutCellFluid final : public Fluid {
     /// Throws std::logic_error where the setup asks for what SolverSetup rules out.
     CutCellFluid(Gpu& gpu, FluidSetup setup);
 
-    void step(double dt_s, const std::vector<BodyState>& given, bool diagnose) override;
-    std::optional<StepResult> result(bool wait) override { return results_.take(wait); }
     long steps() const override { return step_; }
-    void reset() override;
     const Field<Cells>* smoke() const override { return smoke_ ? &smoke_->field() : nullptr; }
     const Field<Cells>* temperature() const override {
         return temperature_ ? &temperature_->field() : nullptr;
@@ -44,6 +43,9 @@ class CutCellFluid final : public Fluid {
     void set_velocity(const std::vector<glm::vec3>& u) override;
 
   private:
+    void move_on(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
+    std::optional<StepResult> take_result(bool wait) override { return results_.take(wait); }
+    void start_over() override;
     FluidState state() const override;
     void resume(const FluidState& from) override;
     /// Projects u_ as it is, with the bodies where they are: no time passes, and nobody feels anything.
@@ -82,7 +84,9 @@ class CutCellFluid final : public Fluid {
     long step_ = 0;
     double time_s_ = 0.0;
     double dt_s_ = 0.0;
-    float guess_scale_ = 1.0f;  // dt over the last one
+    float guess_scale_ = 1.0f;           // dt over the last one
+    Sound sound_ = sound(setup_, 1e-3);  // in this step
+    Driven driven_{setup_};
 
     // --- passes the scene called for
     Walls walls_;
@@ -101,8 +105,9 @@ class CutCellFluid final : public Fluid {
     std::optional<Traction> traction_;
     std::optional<ForceMethodsPass> force_methods_;
     std::optional<Resample> resample_;  // to take over from another
+    HealthCheck health_;
     Diagnosis diagnosis_;
-    Results results_;  // loads and diagnosis
+    Results results_;  // loads, diagnosis and health
 };
 
 }  // namespace eddy::gles

@@ -15,6 +15,7 @@ FluidState CutCellFluid::state() const {
             .steps = step_,
             .time_s = time_s_,
             .dt_s = dt_s_,
+            .driven_m_s = driven_.speed_m_s(),
             .on_faces = &u_,
             .phi4 = &phi_,
             .smoke = smoke(),
@@ -32,6 +33,8 @@ void CutCellFluid::resume(const FluidState& from) {
     step_ = from.steps;
     time_s_ = from.time_s;
     dt_s_ = from.dt_s;
+    driven_.start(from.driven_m_s);
+    if (dt_s_ > 0.0) sound_ = sound(setup_, dt_s_);
     u_ = from.on_faces ? resample_->on_faces(*from.on_faces) : resample_->on_faces(*from.at_centres);
     if (!same_grid && step_ > 0) free_of_divergence();
     // dt p is the same; it is counted in rho h.
@@ -69,7 +72,8 @@ void CutCellFluid::free_of_divergence() {
 void CutCellFluid::settle() {
     const Pressure::Work work = place(bodies_, 1.0f);
     const Field<Faces> u =
-        body_forces_ ? body_forces_->add_to(u_, smoke(), temperature(), time_s_, dt_s_) : std::move(u_);
+        body_forces_ ? body_forces_->add_to(u_, smoke(), temperature(), driven_.speed_m_s(), time_s_, dt_s_)
+                     : std::move(u_);
     diffused_ = diffuse(u, work);
     phi_ = solve_pressure(Part::Whole, divergence(diffused_), work);
     u_ = project(diffused_, increment_, 1.0f);

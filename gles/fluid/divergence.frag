@@ -68,10 +68,18 @@ void main() {
     const vec3 open_low = vec3(0.0), open_high = vec3(0.0);
 #endif
 
+    low_x *= c.x > 0 ? 1.0 : open_low.x;
+    high_x *= c.x + 1 < n.x ? 1.0 : open_high.x;
+    low_y *= c.y > 0 ? 1.0 : open_low.y;
+    high_y *= c.y + 1 < n.y ? 1.0 : open_high.y;
+    low_z *= mix(vec4(open_low.z), vec4(1.0), vec4(greaterThan(z, vec4(0.0))));
+    high_z *= mix(vec4(open_high.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(n.z))));
+
 #ifdef CUT
     vec4 lx = at(ax, FRACTION, c), hx = at(ax, FRACTION, c + ivec3(1, 0, 0));
     vec4 ly = at(ay, FRACTION, c), hy = at(ay, FRACTION, c + ivec3(0, 1, 0));
     vec4 lz = at(az, FRACTION, c), hz = vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x);
+    // A body goes through the tank's walls as it goes through any face; else it would press on what is left beside it there.
     for (int lane = 0; lane < 4; ++lane) {
         vec3 x = vec3(c.xy, z[lane]);
         low_x[lane] = mix(solid_velocity(x + vec3(0.0, 0.5, 0.5)).x, low_x[lane], lx[lane]);
@@ -83,12 +91,6 @@ void main() {
     }
 #endif
 
-    low_x *= c.x > 0 ? 1.0 : open_low.x;
-    high_x *= c.x + 1 < n.x ? 1.0 : open_high.x;
-    low_y *= c.y > 0 ? 1.0 : open_low.y;
-    high_y *= c.y + 1 < n.y ? 1.0 : open_high.y;
-    low_z *= mix(vec4(open_low.z), vec4(1.0), vec4(greaterThan(z, vec4(0.0))));
-    high_z *= mix(vec4(open_high.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(n.z))));
     b = (high_x - low_x + high_y - low_y + high_z - low_z) * vec4(lessThan(z, vec4(n.z)));
 #ifdef CUT
     // A cell without an open face has no pressure to answer with. Beside a tank's wall a moving solid would seem to pile up.

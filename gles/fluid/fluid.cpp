@@ -1,5 +1,6 @@
 #include "gles/fluid/fluid.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "gles/fluid/cut_cell.h"
@@ -24,7 +25,42 @@ void Fluid::take_over(const Fluid& from) {
         throw std::logic_error(
             "a fluid was told to take over one of another tank, with other bodies, or imposed as it is not");
     bodies_ = from.bodies_;
+    forget_answers();
     resume(from.state());
+}
+
+bool StepResult::is_sound() const {
+    const auto finite = [](const Load& load) { return is_finite(load); };
+    return health.texels() == 0 && std::all_of(loads.begin(), loads.end(), finite);
+}
+
+void Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) {
+    if (const auto length_s = guarded_step_s(dt_s, setup_, guards_))
+        move_on(*length_s, guarded_bodies(bodies, bodies_, setup_, *length_s, guards_), diagnose);
+    else
+        ++again_;
+}
+
+std::optional<StepResult> Fluid::result(bool wait) {
+    if (auto result = take_result(wait)) {
+        if (!result->is_sound()) ++guards_.unsound_steps;
+        last_ = result;
+        return result;
+    }
+    const bool all_taken = wait || (last_ ? last_->step : 0) == steps();
+    if (again_ == 0 || !all_taken) return std::nullopt;
+    --again_;
+    return last_ ? *last_ : StepResult{.loads = std::vector<Load>(setup_.bodies.size())};
+}
+
+void Fluid::reset() {
+    forget_answers();
+    start_over();
+}
+
+void Fluid::forget_answers() {
+    last_.reset();
+    again_ = 0;
 }
 
 StepResult Fluid::wait_result() {

@@ -6,6 +6,7 @@
 #include "gles/field.h"
 #include "gles/fluid/fluid_state.h"
 #include "gles/fluid/setup.h"
+#include "gles/fluid/step_guard.h"
 
 namespace eddy::gles {
 
@@ -19,10 +20,24 @@ struct Diagnostics {
     double temperature_total = 0.0;  ///< the same of the temperature [K m^3]
 };
 
+/// What a step found in the fluid as the last one left it.
+struct Health {
+    long velocity_texels = 0;  ///< that cannot be: not finite, or beyond what Sound says
+    long pressure_texels = 0;
+    long scalar_texels = 0;    ///< of smoke and heat
+    double fastest_m_s = 0.0;  ///< of the fluid, where it is sound
+
+    long texels() const { return velocity_texels + pressure_texels + scalar_texels; }
+};
+
 struct StepResult {
-    long step = 0;            ///< number of the step, from 1
-    std::vector<Load> loads;  ///< one for each body; zero where nothing is measured
-    std::optional<Diagnostics> diagnostics;
+    long step = 0;              ///< number of the step, from 1
+    std::vector<Load> loads{};  ///< one for each body; zero where nothing is measured
+    std::optional<Diagnostics> diagnostics{};
+    Health health{};
+
+    /// Whether its loads are those of a flow.
+    bool is_sound() const;
 };
 
 /// A fluid in its tank. The GL thread calls everything.
@@ -30,18 +45,21 @@ class Fluid {
   public:
     virtual ~Fluid() = default;
     /// Moves on by dt_s, ending with the bodies as given; what the fluid decides of a coupled body is taken from there
-    /// only to start with. Returns at once and the GPU works on, unless a body is coupled.
-    virtual void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) = 0;
+    /// only to start with. Returns at once and the GPU works on, unless a body is coupled. Whatever is given, the guards
+    /// (step_guard.h) make a step of it that can be computed. A length that is none leaves all as it is: steps() does not
+    /// count it, and its answer is the last one again.
+    void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose);
     /// The oldest result not yet taken. Without `wait`: only if the GPU has finished it.
-    virtual std::optional<StepResult> result(bool wait) = 0;
+    std::optional<StepResult> result(bool wait);
     /// The oldest result, waiting for the GPU as long as it takes. Throws GlError if the GPU has stopped answering.
     StepResult wait_result();
     /// Steps asked for since the start.
     virtual long steps() const = 0;
     /// All bodies after the last step.
     const std::vector<BodyState>& bodies() const { return bodies_; }
-    /// Back to the start, exactly.
-    virtual void reset() = 0;
+    /// Back to the start, exactly; but guards() counts on.
+    void reset();
+    const GuardCounts& guards() const { return guards_; }
     /// Goes on from where `from` is: its time, number of steps, bodies, flow, smoke and heat, brought over on the GPU. The two
     /// must have the same tank and bodies, and both or neither an imposed flow (else std::logic_error); cells, method and all
     /// other settings may differ. From a fluid with the same cells and kind of grid everything is copied bit for bit. From
@@ -67,12 +85,23 @@ class Fluid {
 
   protected:
     explicit Fluid(FluidSetup setup) : setup_(std::move(setup)) {}
+    /// A step of the solver's own, of whatever a step may be given.
+    virtual void move_on(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) = 0;
+    virtual std::optional<StepResult> take_result(bool wait) = 0;
+    virtual void start_over() = 0;
     /// What it is now, and how it becomes what another is.
     virtual FluidState state() const = 0;
     virtual void resume(const FluidState& from) = 0;
 
     const FluidSetup setup_;
     std::vector<BodyState> bodies_;  ///< at the end of the last step; none before the first
+
+  private:
+    void forget_answers();
+
+    GuardCounts guards_;
+    std::optional<StepResult> last_;  ///< given out
+    long again_ = 0;                  ///< answers that are to be the last one again
 };
 
 /// The solver that setup.solver.method names, or none if the flow is imposed.

@@ -16,7 +16,8 @@ struct FluidState {
     const std::vector<BodyState>& bodies;
     long steps = 0;
     double time_s = 0.0;
-    double dt_s = 0.0;  ///< of the last step; 0 before the first
+    double dt_s = 0.0;        ///< of the last step; 0 before the first
+    double driven_m_s = 0.0;  ///< Driven::speed_m_s(), where that is known
 
     const Field<Faces>* on_faces = nullptr;     ///< velocity [m/s]
     const Field<Cells>* at_centres = nullptr;   ///< velocity [m/s]

@@ -18,9 +18,9 @@ Variant flow_variant(const FluidSetup& setup) {
     const auto& u = setup.imposed->velocity_m_s.glsl;
     return {.defines = {{"CELLS", glsl(setup.cells)}},
             .declarations =
-                setup.formula_helpers +
+                setup.formula_helpers + kWhereFinite +
                 fmt::format("uniform float time;  // [s]\nvec3 imposed_velocity(vec3 cells) {{\n{}    "
-                            "return vec3({}, {}, {});\n}}\n",
+                            "return where_finite(vec3({}, {}, {}));\n}}\n",
                             formula_variables(setup.cell_m, "time"), u[0], u[1], u[2])};
 }
 
@@ -32,6 +32,7 @@ ImposedFluid::ImposedFluid(Gpu& gpu, FluidSetup setup)
       walls_(setup_),
       flow_(gpu, "imposed flow", "gles/fluid/imposed_flow.frag", Faces::layout(setup_.cells),
             flow_variant(setup_)),
+      health_(gpu, setup_),
       diagnosis_(gpu, setup_),
       results_(gpu, setup_) {
     if (const auto smoke = Scalar::smoke(setup_)) smoke_.emplace(gpu, setup_, *smoke, walls_, nullptr);
@@ -39,7 +40,7 @@ ImposedFluid::ImposedFluid(Gpu& gpu, FluidSetup setup)
         temperature_.emplace(gpu, setup_, *heat, walls_, nullptr);
 }
 
-void ImposedFluid::reset() {
+void ImposedFluid::start_over() {
     if (smoke_) smoke_->reset();
     if (temperature_) temperature_->reset();
     results_.forget();
@@ -47,7 +48,8 @@ void ImposedFluid::reset() {
     time_s_ = 0.0;
 }
 
-void ImposedFluid::step(double dt_s, const std::vector<BodyState>&, bool wants_diagnosis) {
+void ImposedFluid::move_on(double dt_s, const std::vector<BodyState>&, bool wants_diagnosis) {
+    health_.draw({.smoke = smoke(), .temperature = temperature()}, sound(setup_, dt_s), results_.row());
     if (!u_ || !setup_.imposed->steady) {
         Gpu::Stage stage(gpu_, "imposed flow");
         u_ = flow_at(time_s_ + 0.5 * dt_s);  // of second order in time
@@ -61,8 +63,9 @@ void ImposedFluid::step(double dt_s, const std::vector<BodyState>&, bool wants_d
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
         diagnose();
-        results_.request(step_, dt_s, true);
     }
+    Gpu::Stage stage(gpu_, "read back");
+    results_.request(step_, dt_s, wants_diagnosis);
 }
 
 FluidState ImposedFluid::state() const {

@@ -1,6 +1,7 @@
 #pragma once
 #include "gles/fluid/diagnosis.h"
 #include "gles/fluid/fluid.h"
+#include "gles/fluid/health.h"
 #include "gles/fluid/results.h"
 #include "gles/fluid/scalar.h"
 
@@ -12,10 +13,7 @@ class ImposedFluid final : public Fluid {
   public:
     ImposedFluid(Gpu& gpu, FluidSetup setup);
 
-    void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
-    std::optional<StepResult> result(bool wait) override { return results_.take(wait); }
     long steps() const override { return step_; }
-    void reset() override;
     const Field<Cells>* smoke() const override { return smoke_ ? &smoke_->field() : nullptr; }
     const Field<Cells>* temperature() const override {
         return temperature_ ? &temperature_->field() : nullptr;
@@ -27,6 +25,9 @@ class ImposedFluid final : public Fluid {
     void set_velocity(const std::vector<glm::vec3>& u) override;
 
   private:
+    void move_on(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
+    std::optional<StepResult> take_result(bool wait) override { return results_.take(wait); }
+    void start_over() override;
     FluidState state() const override;
     void resume(const FluidState& from) override;
     Field<Faces> flow_at(double time_s) const;
@@ -41,6 +42,7 @@ class ImposedFluid final : public Fluid {
     std::optional<Scalar> smoke_, temperature_;
     std::optional<Pass> divergence_;
     std::optional<Resample> resample_;  ///< to take over from another
+    HealthCheck health_;                ///< of what the flow carries
     Diagnosis diagnosis_;
     Results results_;
 };

@@ -10,6 +10,7 @@
 #include "maccormack.glsl"
 #include "sources.glsl"
 #include "beyond.glsl"
+#include "guard.glsl"
 
 uniform sampler2D velocity, scalar, forward;
 uniform float dt_h;  // dt / h  [s/m]
@@ -24,11 +25,12 @@ out float result;
 void main() {
     ivec3 c = cell_here(TARGET);
     vec3 x = vec3(c) + 0.5;
-    vec3 displacement = dt_h * velocity_in_cell(velocity, c);
+    vec3 displacement = sound(dt_h * velocity_in_cell(velocity, c), FARTHEST);  // guard carrier
     vec4 least, most;
     donors(scalar, TARGET, x - displacement, least, most);
     float back = sample_linear(forward, TARGET, x + displacement).x;
     // Where the way back leaves the tank through an opening nothing is known of the error.
     float s = at(forward, TARGET, c).x + 0.5 * from_inside(x + displacement) * (at(scalar, TARGET, c).x - back);
-    result = remains * from_inside(x - displacement) * clamp(s, least.x, most.x) + from_sources(x);
+    float carried = sound(from_inside(x - displacement) * clamp(s, least.x, most.x), kMostScalar);  // guard scalar
+    result = remains * carried + from_sources(x);
 }

@@ -8,6 +8,7 @@
 #include "velocity.glsl"
 #include "maccormack.glsl"
 #include "beyond.glsl"
+#include "guard.glsl"
 
 uniform sampler2D velocity, forward;
 #ifdef CARRIER
@@ -40,6 +41,7 @@ void main() {
     vec3 s = vec3(c) + 0.5;
     vec4 here = at(velocity, FACES, c), ahead = at(forward, FACES, c);
     FaceVelocities v = velocity_on_faces(carrier, c, at(carrier, FACES, c).xyz);
-    result = vec4(corrected(0, s, dt_h * v.x, here, ahead), corrected(1, s, dt_h * v.y, here, ahead),
-                  corrected(2, s, dt_h * v.z, here, ahead), 0.0);
+    vec3 u = vec3(corrected(0, s, sound(dt_h * v.x, FARTHEST), here, ahead), corrected(1, s, sound(dt_h * v.y, FARTHEST), here, ahead),
+                  corrected(2, s, sound(dt_h * v.z, FARTHEST), here, ahead));  // guard carrier
+    result = vec4(sound(u, FARTHEST / dt_h), 0.0);  // guard velocity
 }

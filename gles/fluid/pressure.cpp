@@ -11,8 +11,7 @@
 namespace eddy::gles {
 namespace {
 
-constexpr int kCoarsest = 4;    // cells an axis at which coarsening stops
-constexpr int kSplitFrom = 24;  // cells an axis from which the plain variant is worth its extra draw
+constexpr int kCoarsest = 4;  // cells an axis at which coarsening stops
 constexpr int kCoarsestSweeps = 8;
 // Cells around a body or source that are swept once more. Fewer cost less, but the largest residual then sits
 // right outside: `eddy bench --grid 64`, fast, cuts max |div u| 498, 504, 561 times with 8, 10, 12, at 2 % more fetches.
@@ -73,7 +72,7 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
     const std::vector<glm::ivec3> grids = multigrid_levels(cells);
     for (std::size_t l = 0; l < grids.size(); ++l) {
         const glm::ivec3 n = grids[l];
-        Level level{n, std::min({n.x, n.y, n.z}) >= kSplitFrom, {}, {}, {}, {}, {}, {}};
+        Level level{n, std::min({n.x, n.y, n.z}) >= kBoxedFrom, {}, {}, {}, {}, {}, {}, {}};
         levels_.push_back(std::move(level));
     }
     if (fractions_) {
@@ -84,8 +83,10 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
     }
     if (fractions_ && fractions_->are_thin()) {
         least_residual_.emplace(gpu, cells);
-        residual_.emplace(
-            make(gpu, "residual", "gles/fluid/residual.frag", 0, Cells4::layout(cells), {}, walls));
+        const AtlasLayout finest = Cells4::layout(cells);
+        residual_.emplace(make(gpu, "residual", "gles/fluid/residual.frag", 0, finest, {}, walls));
+        guess_residual_.emplace(make(gpu, "residual of guess", "gles/fluid/residual.frag", 0, finest,
+                                     {.defines = {{"GUESS", ""}}}, walls));
     }
     for (std::size_t l = 0; l < grids.size(); ++l) {
         Level& level = levels_[l];
@@ -98,6 +99,9 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
             break;
         }
         level.sweep.emplace(make(gpu, "smooth", "gles/fluid/smooth.frag", l, here, {}, walls));
+        if (l == 0)
+            level.guess_sweep.emplace(make(gpu, "smooth guess", "gles/fluid/smooth.frag", l, here,
+                                           {.defines = {{"GUESS", ""}}}, walls));
         if (l > 0 || from_zero || least_residual_)
             level.first_sweep.emplace(make(gpu, "smooth from zero", "gles/fluid/smooth.frag", l, here,
                                            {.defines = {{"FROM_ZERO", ""}}}, walls));
@@ -147,11 +151,13 @@ void Pressure::draw(Split& pass, std::size_t l, std::vector<Input> inputs,
     if (pass.cut) pass.cut->draw(inputs, uniforms, {&out}, Region::packed(boxes));
 }
 
-Field<Cells4> Pressure::sweep(std::size_t l, const Field<Cells4>& phi, float scale, const Field<Cells4>& b,
-                              float omega) {
+Field<Cells4> Pressure::sweep(std::size_t l, const Field<Cells4>& phi, const std::optional<Guess>& guess,
+                              const Field<Cells4>& b, float omega) {
     Field<Cells4> next(*gpu_, levels_[l].cells, Format::RGBA32F);
-    draw(*levels_[l].sweep, l, {{"phi", &phi.texture()}, {"b", &b.texture()}},
-         {{"omega", omega}, {"scale", scale}}, next.texture(), levels_[l].boxes);
+    std::vector<Uniform> uniforms{{"omega", omega}};
+    if (guess) uniforms.insert(uniforms.end(), {{"scale", guess->scale}, {"most_phi", guess->most_phi}});
+    draw(guess ? *levels_[l].guess_sweep : *levels_[l].sweep, l,
+         {{"phi", &phi.texture()}, {"b", &b.texture()}}, uniforms, next.texture(), levels_[l].boxes);
     return next;
 }
 
@@ -172,8 +178,8 @@ void Pressure::sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std
     for (Box& box : wider) box = box.grow(kRoughReach + 1);
     const auto sweep = [&](const Field<Cells4>& from, float omega, const Field<Cells4>& to,
                            const std::vector<Box>& where) {
-        draw(*levels_[0].sweep, 0, {{"phi", &from.texture()}, {"b", &b.texture()}},
-             {{"omega", omega}, {"scale", 1.0f}}, to.texture(), levels_[0].boxes, Region::packed(where));
+        draw(*levels_[0].sweep, 0, {{"phi", &from.texture()}, {"b", &b.texture()}}, {{"omega", omega}},
+             to.texture(), levels_[0].boxes, Region::packed(where));
     };
     sweep(phi, kSmoother[0], there, wider);
     sweep(there, kSmoother[1], phi, near);
@@ -196,8 +202,8 @@ Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<Displacement
     return phi;
 }
 
-Field<Cells4> Pressure::cycle(std::size_t l, std::optional<Field<Cells4>> phi, float scale,
-                              const Field<Cells4>& b) {
+Field<Cells4> Pressure::cycle(std::size_t l, std::optional<Field<Cells4>> phi,
+                              const std::optional<Guess>& guess, const Field<Cells4>& b) {
     Level& level = levels_[l];
     if (level.solve) {
         Field<Cells4> solved(*gpu_, level.cells, Format::RGBA32F);
@@ -205,18 +211,18 @@ Field<Cells4> Pressure::cycle(std::size_t l, std::optional<Field<Cells4>> phi, f
              level.boxes);
         return solved;
     }
-    Field<Cells4> p = phi ? sweep(l, *phi, scale, b, kSmoother[0]) : sweep_from_zero(l, b, kSmoother[0]);
-    p = sweep(l, p, 1.0f, b, kSmoother[1]);
+    Field<Cells4> p = phi ? sweep(l, *phi, guess, b, kSmoother[0]) : sweep_from_zero(l, b, kSmoother[0]);
+    p = sweep(l, p, std::nullopt, b, kSmoother[1]);
 
     Field<Cells4> b_coarse(*gpu_, levels_[l + 1].cells, Format::RGBA32F);
     draw(*level.restrict, l, {{"phi", &p.texture()}, {"b", &b.texture()}}, {}, b_coarse.texture(),
          levels_[l + 1].boxes);
-    const Field<Cells4> p_coarse = cycle(l + 1, std::nullopt, 1.0f, b_coarse);
+    const Field<Cells4> p_coarse = cycle(l + 1, std::nullopt, std::nullopt, b_coarse);
     Field<Cells4> corrected(*gpu_, level.cells, Format::RGBA32F);
     level.prolong->plain.draw({{"phi", &p.texture()}, {"phi_coarse", &p_coarse.texture()}}, {},
                               {&corrected.texture()});
     p = std::move(corrected);
-    for (float omega : kSmoother) p = sweep(l, p, 1.0f, b, omega);
+    for (float omega : kSmoother) p = sweep(l, p, std::nullopt, b, omega);
     return p;
 }
 
@@ -238,15 +244,19 @@ Field<Cells4> Pressure::cycles(std::optional<Field<Cells4>> phi, const Field<Cel
         phi = least_residual_cycles(std::move(phi), b, work);
     else
         for (int i = 0; i < work.cycles; ++i)
-            phi = cycle(0, std::move(phi), i == 0 ? work.guess_scale : 1.0f, b);
+            phi = cycle(0, std::move(phi),
+                        i == 0 ? std::optional(Guess{work.guess_scale, work.most_phi}) : std::nullopt, b);
     if (!work.rough.empty()) sweep_rough(*phi, b, work.rough);
     return *std::move(phi);
 }
 
-Field<Cells4> Pressure::residual(const Field<Cells4>& phi, float scale, const Field<Cells4>& b) {
+Field<Cells4> Pressure::residual(const Field<Cells4>& phi, const std::optional<Guess>& guess,
+                                 const Field<Cells4>& b) {
     Field<Cells4> r(*gpu_, levels_[0].cells, Format::RGBA32F);
-    draw(*residual_, 0, {{"phi", &phi.texture()}, {"b", &b.texture()}}, {{"scale", scale}}, r.texture(),
-         levels_[0].boxes);
+    std::vector<Uniform> uniforms;
+    if (guess) uniforms = {{"scale", guess->scale}, {"most_phi", guess->most_phi}};
+    draw(guess ? *guess_residual_ : *residual_, 0, {{"phi", &phi.texture()}, {"b", &b.texture()}}, uniforms,
+         r.texture(), levels_[0].boxes);
     return r;
 }
 
@@ -256,12 +266,12 @@ Field<Cells4> Pressure::least_residual_cycles(std::optional<Field<Cells4>> phi, 
         phi.emplace(*gpu_, levels_[0].cells, Format::RGBA32F);
         clear(phi->texture());
     }
-    float scale = work.guess_scale;
-    Field<Cells4> r = residual(*phi, scale, b);
+    Guess guess{work.guess_scale, work.most_phi};
+    Field<Cells4> r = residual(*phi, guess, b);
     least_residual_->restart();
-    for (int i = 0; i < work.cycles; ++i, scale = 1.0f) {
-        const Field<Cells4> z = cycle(0, std::nullopt, 1.0f, r);
-        least_residual_->correct(*phi, scale, r, z, residual(z, 1.0f, r));
+    for (int i = 0; i < work.cycles; ++i, guess.scale = 1.0f) {
+        const Field<Cells4> z = cycle(0, std::nullopt, std::nullopt, r);
+        least_residual_->correct(*phi, guess.scale, guess.most_phi, r, z, residual(z, std::nullopt, r));
     }
     return *std::move(phi);
 }

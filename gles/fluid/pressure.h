@@ -39,6 +39,7 @@ class Pressure {
     struct Work {
         int cycles = 2;            ///< V-cycles
         float guess_scale = 1.0f;  ///< the first guess is this times phi, which grows with dt
+        float most_phi = 1e30f;    ///< a phi beyond that is no guess (step_guard.h)
         std::vector<Box> cut{};    ///< cells whose fractions may not be 1
         std::vector<Box> rough{};  ///< those, and all where b jumps from cell to cell: swept twice more
     };
@@ -57,6 +58,7 @@ class Pressure {
         glm::ivec3 cells;
         bool split;  ///< a plain sweep of the whole grid and a cut one of the boxes over it cost less than
                      ///< one cut sweep
+        std::optional<Split> guess_sweep;  ///< of a guess; only the finest has it
         std::optional<Split> first_sweep, sweep, restrict, prolong;
         std::optional<Split> solve;  ///< the coarsest has only this
         std::vector<Box> boxes;
@@ -66,22 +68,28 @@ class Pressure {
                Variant variant, const Walls& walls);
     void draw(Split& pass, std::size_t level, std::vector<Input> inputs, const std::vector<Uniform>& uniforms,
               const Texture& out, const std::vector<Box>& boxes, const Region& where = Region::everything());
-    Field<Cells4> sweep(std::size_t l, const Field<Cells4>& phi, float scale, const Field<Cells4>& b,
-                        float omega);
+    /// What a guess is multiplied by, and how large it may be.
+    struct Guess {
+        float scale, most_phi;
+    };
+    Field<Cells4> sweep(std::size_t l, const Field<Cells4>& phi, const std::optional<Guess>& guess,
+                        const Field<Cells4>& b, float omega);
     Field<Cells4> sweep_from_zero(std::size_t l, const Field<Cells4>& b, float omega);
     void sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std::vector<Box>& boxes);
     Field<Cells4> cycles(std::optional<Field<Cells4>> phi, const Field<Cells4>& b, const Work& work);
-    Field<Cells4> residual(const Field<Cells4>& phi, float scale, const Field<Cells4>& b);
+    Field<Cells4> residual(const Field<Cells4>& phi, const std::optional<Guess>& guess,
+                           const Field<Cells4>& b);
     Field<Cells4> least_residual_cycles(std::optional<Field<Cells4>> phi, const Field<Cells4>& b,
                                         const Work& work);
-    Field<Cells4> cycle(std::size_t l, std::optional<Field<Cells4>> phi, float scale, const Field<Cells4>& b);
+    Field<Cells4> cycle(std::size_t l, std::optional<Field<Cells4>> phi, const std::optional<Guess>& guess,
+                        const Field<Cells4>& b);
 
     Gpu* gpu_;
     const Fractions* fractions_;
     std::vector<Level> levels_;
     std::optional<Pass> follow_, copy_back_;
     std::optional<LeastResidual> least_residual_;  ///< with thin bodies
-    std::optional<Split> residual_;
+    std::optional<Split> residual_, guess_residual_;
 };
 
 /// Relaxation weights of m weighted-Jacobi sweeps that together damp the eigenvalues [low, high] of D^-1 A as

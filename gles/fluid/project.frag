@@ -11,7 +11,9 @@
 // PREDICTS where a viscous step starts with the pressure of the last one.
 uniform sampler2D velocity, phi;
 #ifdef PREDICTS
+#include "guard.glsl"
 uniform float scale;  // of phi: the last step's, when it serves for this one
+uniform float most_phi;
 #else
 const float scale = 1.0;
 #endif
@@ -27,7 +29,11 @@ float lane(vec4 four, int z) {
 
 float potential(ivec3 c) {
     c = clamp(c, ivec3(0), CELLS - 1);
-    return scale * lane(at(phi, PHI, ivec3(c.xy, c.z >> 2)), c.z);
+    float p = lane(at(phi, PHI, ivec3(c.xy, c.z >> 2)), c.z);
+#ifdef PREDICTS
+    p = kept(vec4(p), most_phi).x;  // guard guess
+#endif
+    return scale * p;
 }
 
 #ifdef CUT

@@ -89,12 +89,12 @@ Field<Cells4> Projection::divergence(const Field<Faces>& u, const std::vector<Bo
     return b;
 }
 
-Field<Faces> Projection::project(const Field<Faces>& u, const Field<Cells4>& phi, float scale,
+Field<Faces> Projection::project(const Field<Faces>& u, const Field<Cells4>& phi, float scale, float most_phi,
                                  const std::vector<Box>& boxes, const Uniform& wall_time) {
     if (!predicts_ && scale != 1.0f) throw std::logic_error("the pressure of another step without viscosity");
     Field<Faces> next(*gpu_, u.cells(), Format::RGBA32F);
     std::vector<Input> inputs{{"velocity", &u.texture()}, {"phi", &phi.texture()}};
-    std::vector<Uniform> uniforms{{"scale", scale}, wall_time};
+    std::vector<Uniform> uniforms{{"scale", scale}, {"most_phi", most_phi}, wall_time};
     project_.draw(inputs, uniforms, {&next.texture()});
     if (fractions_) {
         add_solids(inputs, uniforms);

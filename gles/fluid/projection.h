@@ -19,8 +19,9 @@ class Projection {
     /// div (a u + (1 - a) u_solid). `boxes`: around the bodies; `wall_time`: see Walls.
     Field<Cells4> divergence(const Field<Faces>& u, const std::vector<Box>& boxes, const Uniform& wall_time);
     /// u - scale grad phi, and on walls and in solids their velocity. Where there is no viscous step that would start with the
-    /// pressure of the last one, phi is always this step's and `scale` must be 1: the shader has none.
-    Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale,
+    /// pressure of the last one, phi is always this step's and `scale` must be 1: the shader has none. A phi beyond `most_phi`
+    /// (step_guard.h) counts as 0.
+    Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale, float most_phi,
                          const std::vector<Box>& boxes, const Uniform& wall_time);
 
   private:

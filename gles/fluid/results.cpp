@@ -1,11 +1,12 @@
 #include "gles/fluid/results.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace eddy::gles {
 
 int Results::width(const FluidSetup& setup) {
-    return diagnosis_texel(setup).x + (setup.temperature ? 2 : 1);
+    return diagnosis_texel(setup).x + (setup.temperature ? 3 : 2);
 }
 
 bool Results::measures(const FluidSetup& setup) {
@@ -43,10 +44,12 @@ std::optional<StepResult> Results::take(bool wait) {
         if (setup_->bodies[i].torque) load.torque_nm = newton * h * glm::dvec3(got->texels[2 * i + 1]);
         result.loads.push_back(load);
     }
+    const auto texel = [&](const glm::ivec2& at) {
+        return glm::dvec4(got->texels[static_cast<std::size_t>(at.x)]);
+    };
+    const glm::dvec4 found = texel(health_texel(*setup_));
+    result.health = {std::lround(found.x), std::lround(found.y), std::lround(found.z), found.w};
     if (asked.diagnosed) {
-        const auto texel = [&](const glm::ivec2& at) {
-            return glm::dvec4(got->texels[static_cast<std::size_t>(at.x)]);
-        };
         const glm::dvec4 d = texel(diagnosis_texel(*setup_));
         result.diagnostics =
             Diagnostics{d.w / h, d.x / h, 0.5 * setup_->density_kg_m3 * volume * d.y, d.z * volume};

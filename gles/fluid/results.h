@@ -8,8 +8,8 @@
 namespace eddy::gles {
 
 /// The few numbers a step leaves on the GPU, and their way back to SI units: one row of texels, two for each
-/// body (force, then moment, as Traction writes them), one for the diagnosis of the whole tank and, where there is
-/// heat, one more.
+/// body (force, then moment, as Traction writes them), one for the diagnosis of the whole tank, where there is
+/// heat one more, and one for the health of the fluid.
 class Results {
   public:
     Results(Gpu& gpu, const FluidSetup& setup);
@@ -26,6 +26,8 @@ class Results {
     static glm::ivec2 heat_texel(const FluidSetup& setup) {
         return diagnosis_texel(setup) + glm::ivec2(1, 0);
     }
+    /// Where HealthCheck counts: unsound texels of velocity, of pressure, of scalars; max |u|.
+    static glm::ivec2 health_texel(const FluidSetup& setup) { return {width(setup) - 1, 0}; }
     /// Whether the force or torque on any body is asked for.
     static bool measures(const FluidSetup& setup);
 

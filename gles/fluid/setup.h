@@ -149,6 +149,8 @@ struct FluidSetup {
     double density_kg_m3 = 1.2;
     double viscosity_pa_s = 0.0;  ///< mu, dynamic; 0: no viscous term anywhere
     glm::dvec3 gravity_m_s2{0.0};
+    double shortest_step_s = 0.0;  ///< a shorter step is none (step_guard.h)
+    double longest_step_s = std::numeric_limits<double>::infinity();  ///< and none is longer
     std::array<WallSetup, 6> walls{};                  ///< x low, x high, y low, y high, z low, z high
     std::optional<VectorFormula> acceleration_m_s2{};  ///< a force on all of the fluid, per mass
     double confinement_1_s = 0.0;           ///< eps of vorticity confinement, f = eps h (N x w); 0: none

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "gles/fluid/step_guard.h"
+
 namespace eddy::gles {
 
 bool is_running(const SourceSetup& source, double time_s) {
@@ -23,7 +25,7 @@ Box ball_box(const glm::vec4& ball, const glm::ivec3& limit) {
 VelocityTransport::VelocityTransport(Gpu& gpu, const FluidSetup& setup, const Walls& walls)
     : gpu_(&gpu), cell_m_(setup.cell_m) {
     const AtlasLayout faces = Faces::layout(setup.cells);
-    Variant variant{.layouts = {{"FACES", faces}}};
+    Variant variant{.layouts = {{"FACES", faces}}, .defines = {farthest(setup)}};
     if (setup.solver.time_order == 2) variant.defines.emplace_back("CARRIER", "");
     walls.declare(variant);
     const bool corrects = setup.solver.advection == Advection::MacCormack;
@@ -51,7 +53,7 @@ ScalarTransport::ScalarTransport(Gpu& gpu, const FluidSetup& setup, const Scalar
                                  const Walls& walls)
     : gpu_(&gpu), cell_m_(setup.cell_m), scalar_(scalar) {
     const AtlasLayout cells = Cells::layout(setup.cells);
-    Variant variant{.layouts = {{"FACES", Faces::layout(setup.cells)}}};
+    Variant variant{.layouts = {{"FACES", Faces::layout(setup.cells)}}, .defines = {farthest(setup)}};
     walls.declare(variant);
     Variant last = variant;
     if (scalar.fading_1_s > 0.0) last.defines.emplace_back("FADES", "");

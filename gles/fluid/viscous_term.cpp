@@ -21,12 +21,15 @@ float ViscousTerm::Equation::on(std::size_t level) const {
 
 ViscousTerm::ViscousTerm(Gpu& gpu, const FluidSetup& setup, const Walls& walls) : gpu_(&gpu), setup_(&setup) {
     const std::vector<glm::ivec3> grids = multigrid_levels(setup.cells);
-    for (const glm::ivec3& n : grids) levels_.push_back({n, {}, {}, {}, {}, {}});
+    for (const glm::ivec3& n : grids) levels_.push_back({n, {}, {}, {}, {}, {}, {}});
     if (!setup.bodies.empty()) grip_.emplace(gpu, grids, setup.bodies);
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         Level& level = levels_[l];
         const AtlasLayout here = Faces::layout(level.cells);
         level.smooth.emplace(make(gpu, "viscous smooth", "gles/fluid/viscous_smooth.frag", l, {}, walls));
+        if (l == 0)
+            level.guess_smooth.emplace(make(gpu, "viscous smooth guess", "gles/fluid/viscous_smooth.frag", l,
+                                            {.defines = {{"GUESS", ""}}}, walls));
         if (l > 0)
             level.first_smooth.emplace(make(gpu, "viscous smooth from zero", "gles/fluid/viscous_smooth.frag",
                                             l, {.defines = {{"FROM_ZERO", ""}}}, walls));
@@ -73,26 +76,29 @@ void ViscousTerm::draw(Split& pass, std::size_t l, std::vector<Input> inputs, st
     pass.cut->draw(inputs, uniforms, {&out}, Region(grip_->boxes(l)));
 }
 
-Field<Faces> ViscousTerm::smooth(std::size_t l, const Field<Faces>* u, const Field<Faces>& rhs, float omega,
-                                 const Equation& equation) {
-    Field<Faces> next(*gpu_, levels_[l].cells, Format::RGBA32F);
-    Split& sweep = u ? *levels_[l].smooth : *levels_[l].first_smooth;
+Field<Faces> ViscousTerm::smooth(std::size_t l, const Field<Faces>* u, std::optional<float> fastest_m_s,
+                                 const Field<Faces>& rhs, float omega, const Equation& equation) {
+    Level& level = levels_[l];
+    Field<Faces> next(*gpu_, level.cells, Format::RGBA32F);
+    Split& sweep = fastest_m_s ? *level.guess_smooth : u ? *level.smooth : *level.first_smooth;
+    std::vector<Uniform> uniforms{{"omega", omega}};
+    if (fastest_m_s) uniforms.push_back({"fastest", *fastest_m_s});
     std::vector<Input> inputs{{"rhs", &rhs.texture()}};
     if (u) inputs.push_back({"velocity", &u->texture()});
-    draw(sweep, l, inputs, {{"omega", omega}}, equation, next.texture());
+    draw(sweep, l, inputs, uniforms, equation, next.texture());
     return next;
 }
 
-Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, const Field<Faces>& rhs,
-                                const Equation& equation) {
+Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, std::optional<float> fastest_m_s,
+                                const Field<Faces>& rhs, const Equation& equation) {
     Level& level = levels_[l];
     const bool coarsest = l + 1 == equation.levels;
     const float lambda = equation.on(l);
     // Before and after the coarser grids: what they cannot hold. On the coarsest: everything.
     const std::vector<float> omegas =
         coarsest ? diffusion_weights(kCoarsestSweeps, lambda, 0.1) : diffusion_weights(2, lambda, 1.0 / 3.0);
-    Field<Faces> u = smooth(l, guess, rhs, omegas[0], equation);
-    for (std::size_t i = 1; i < omegas.size(); ++i) u = smooth(l, &u, rhs, omegas[i], equation);
+    Field<Faces> u = smooth(l, guess, fastest_m_s, rhs, omegas[0], equation);
+    for (std::size_t i = 1; i < omegas.size(); ++i) u = smooth(l, &u, std::nullopt, rhs, omegas[i], equation);
     if (coarsest) return u;
 
     Field<Faces> residual(*gpu_, level.cells, Format::RGBA32F);
@@ -101,21 +107,21 @@ Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, const 
     Level& coarse = levels_[l + 1];
     Field<Faces> rhs_coarse(*gpu_, coarse.cells, Format::RGBA32F);
     coarse.restrict_to->draw({{"residual", &residual.texture()}}, {}, {&rhs_coarse.texture()});
-    const Field<Faces> correction = cycle(l + 1, nullptr, rhs_coarse, equation);
+    const Field<Faces> correction = cycle(l + 1, nullptr, std::nullopt, rhs_coarse, equation);
     Field<Faces> corrected(*gpu_, level.cells, Format::RGBA32F);
     draw(*level.prolong, l, {{"velocity", &u.texture()}, {"correction", &correction.texture()}}, {}, equation,
          corrected.texture());
     u = std::move(corrected);
-    for (float omega : omegas) u = smooth(l, &u, rhs, omega, equation);
+    for (float omega : omegas) u = smooth(l, &u, std::nullopt, rhs, omega, equation);
     return u;
 }
 
-Field<Faces> ViscousTerm::diffuse(const Field<Faces>& guess, const Field<Faces>& u_star, double dt_s,
-                                  int cycles, const Uniform& wall_time) {
+Field<Faces> ViscousTerm::diffuse(const Field<Faces>& guess, float fastest_m_s, const Field<Faces>& u_star,
+                                  double dt_s, int cycles, const Uniform& wall_time) {
     Equation equation{diffusion_number(*setup_, dt_s), 1, {wall_time}};
     while (equation.levels < levels_.size() && equation.on(equation.levels) > kLeastLambda) ++equation.levels;
-    Field<Faces> u = cycle(0, &guess, u_star, equation);
-    for (int i = 1; i < cycles; ++i) u = cycle(0, &u, u_star, equation);
+    Field<Faces> u = cycle(0, &guess, fastest_m_s, u_star, equation);
+    for (int i = 1; i < cycles; ++i) u = cycle(0, &u, std::nullopt, u_star, equation);
     return u;
 }
 

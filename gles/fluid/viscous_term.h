@@ -21,9 +21,10 @@ class ViscousTerm {
 
     /// Draws where the bodies hold the fluid now; `boxes` hold each body and two cells around it.
     void place(const BodyUniforms& bodies, const std::vector<Box>& boxes, const FaceFractions& fractions);
-    /// u after `cycles` V-cycles from a guess; u* also holds the velocities on walls and in bodies.
-    Field<Faces> diffuse(const Field<Faces>& guess, const Field<Faces>& u_star, double dt_s, int cycles,
-                         const Uniform& wall_time);
+    /// u after `cycles` V-cycles from a guess, which is none where it is faster than `fastest_m_s`; u* also holds the
+    /// velocities on walls and in bodies.
+    Field<Faces> diffuse(const Field<Faces>& guess, float fastest_m_s, const Field<Faces>& u_star,
+                         double dt_s, int cycles, const Uniform& wall_time);
     /// Where the bodies hold the fluid; null without bodies.
     const Grip* grip() const { return grip_ ? &*grip_ : nullptr; }
 
@@ -35,6 +36,7 @@ class ViscousTerm {
     };
     struct Level {
         glm::ivec3 cells;
+        std::optional<Split> guess_smooth;  ///< of a guess; only the finest has it
         std::optional<Split> first_smooth, smooth, residual, prolong;
         std::optional<Pass> restrict_to;  ///< this level, from the finer one
     };
@@ -49,11 +51,11 @@ class ViscousTerm {
                const Walls& walls) const;
     void draw(Split& pass, std::size_t l, std::vector<Input> inputs, std::vector<Uniform> uniforms,
               const Equation& equation, const Texture& out);
-    /// One sweep; u null: from zero.
-    Field<Faces> smooth(std::size_t l, const Field<Faces>* u, const Field<Faces>& rhs, float omega,
-                        const Equation& equation);
-    Field<Faces> cycle(std::size_t l, const Field<Faces>* u, const Field<Faces>& rhs,
-                       const Equation& equation);
+    /// One sweep; u null: from zero; `fastest_m_s` if u is a guess.
+    Field<Faces> smooth(std::size_t l, const Field<Faces>* u, std::optional<float> fastest_m_s,
+                        const Field<Faces>& rhs, float omega, const Equation& equation);
+    Field<Faces> cycle(std::size_t l, const Field<Faces>* u, std::optional<float> fastest_m_s,
+                       const Field<Faces>& rhs, const Equation& equation);
 
     Gpu* gpu_;
     const FluidSetup* setup_;

@@ -21,6 +21,11 @@ std::string constant(const char* name, const glm::vec3& v) {
 
 }  // namespace
 
+const char* const kWhereFinite =
+    "vec3 where_finite(vec3 v) {\n"
+    "    uvec3 most = uvec3(0x7f800000u);\n"
+    "    return mix(v, vec3(0.0), equal(floatBitsToUint(v) & most, most));\n}\n";
+
 std::string formula_variables(double cell_m, const char* time) {
     return fmt::format(
         "    float x = {0:.9e} * cells.x, y = {0:.9e} * cells.y, z = {0:.9e} * cells.z, t = {1};\n", cell_m,
@@ -60,12 +65,14 @@ void Walls::declare(Variant& variant, const glm::vec3& covered) const {
         inflow[high][axis] = w.kind == WallKind::Inflow ? 1.0f : 0.0f;
         if (!sticks(w)) continue;
         const auto& f = w.velocity_m_s.glsl;
-        velocity += fmt::format("    if (wall == {}) return vec3({}, {}, {});\n", wall, f[0], f[1], f[2]);
+        velocity += fmt::format("    if (wall == {}) return where_finite(vec3({}, {}, {}));\n", wall, f[0],
+                                f[1], f[2]);
     }
     if (last_link != glm::vec3(1.0f))
         variant.defines.emplace_back(
             "LAST_LINK", fmt::format("vec3({:.8f}, {:.8f}, {:.8f})", last_link.x, last_link.y, last_link.z));
     variant.declarations += setup_->formula_helpers;
+    variant.declarations += kWhereFinite;  // guard formula
     variant.declarations += constant("FRICTION_LOW", friction[0]) + constant("FRICTION_HIGH", friction[1]) +
                             constant("OPEN_LOW", open[0]) + constant("OPEN_HIGH", open[1]) +
                             constant("INFLOW_LOW", inflow[0]) + constant("INFLOW_HIGH", inflow[1]);

@@ -8,6 +8,8 @@ namespace eddy::gles {
 
 /// GLSL that declares x, y, z [m] and t [s] for a formula, from a place `cells` and a uniform `time`.
 std::string formula_variables(double cell_m, const char* time);
+/// GLSL: vec3 where_finite(vec3 v), v with 0 for what a formula has no value for, as sqrt(-1). By the bits, as in guard.glsl.
+extern const char* const kWhereFinite;
 
 /// The tank's walls as the shaders see them. A tank whose walls are all slip walls adds nothing to any shader.
 ///

@@ -7,6 +7,7 @@
 //
 // Variant FADES: k is not 0.
 #include "fluid/sources.glsl"
+#include "guard.glsl"
 
 uniform sampler2D velocity, smoke;
 uniform float dt_h;  // dt / h  [s/m]
@@ -21,5 +22,7 @@ out float result;
 void main() {
     ivec3 c = cell_here(TARGET);
     vec3 x = vec3(c) + 0.5;
-    result = remains * sample_linear(smoke, TARGET, x - dt_h * at(velocity, TARGET, c).xyz).x + from_sources(x);
+    vec3 moved = sound(dt_h * at(velocity, TARGET, c).xyz, FARTHEST);                  // guard carrier
+    float carried = sound(sample_linear(smoke, TARGET, x - moved).x, kMostScalar);     // guard scalar
+    result = remains * carried + from_sources(x);
 }

@@ -10,6 +10,8 @@
 #include "cell_types.glsl"
 uniform sampler2D obstacles;
 #endif
+#include "guard.glsl"
+
 uniform sampler2D velocity;
 uniform float dt_h;  // dt / h  [s/m]
 
@@ -24,5 +26,6 @@ void main() {
         return;
     }
 #endif
-    result = sample_linear(velocity, TARGET, vec3(c) + 0.5 - dt_h * at(velocity, TARGET, c).xyz);
+    vec3 moved = sound(dt_h * at(velocity, TARGET, c).xyz, FARTHEST);                                // guard carrier
+    result = sound(sample_linear(velocity, TARGET, vec3(c) + 0.5 - moved), FARTHEST / dt_h);         // guard velocity
 }

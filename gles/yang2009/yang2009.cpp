@@ -14,6 +14,11 @@ namespace {
 /// force after taking over is up to three times too large (40 sweeps, 32^3 cells), with 4 half of what it should be.
 constexpr int kTakeOverProjections = 2;
 
+Variant carrying(Variant variant, const FluidSetup& setup) {
+    variant.defines.push_back(farthest(setup));
+    return variant;
+}
+
 }  // namespace
 
 Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
@@ -25,11 +30,12 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
                                     : std::optional<Voxels>(std::in_place, gpu, setup_.cells, setup_.bodies)),
       body_uniforms_(gpu_, setup_.bodies, setup_.cell_m),
       advect_velocity_(gpu, "advect velocity", "gles/yang2009/advect_velocity.frag", u_.layout(),
-                       obstacle_variant(voxels())),
+                       carrying(obstacle_variant(voxels()), setup_)),
       divergence_(gpu, "divergence", "gles/yang2009/divergence.frag", u_.layout(),
                   obstacle_variant(voxels())),
       pressure_(gpu, setup_.cells, voxels()),
       project_(gpu, "project", "gles/yang2009/project.frag", u_.layout(), obstacle_variant(voxels())),
+      health_(gpu, setup_, u_.layout(), phi_.layout()),
       results_(gpu, setup_) {
     if (Results::measures(setup_)) force_.emplace(gpu, setup_, Results::width(setup_));
     if (setup_.viscosity_pa_s > 0.0) viscosity_.emplace(gpu, setup_, voxels());
@@ -43,7 +49,7 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
     }
     if (setup_.smoke) {
         const char* shader = "gles/yang2009/advect_smoke.frag";
-        Variant variant;
+        Variant variant = carrying({}, setup_);
         if (setup_.smoke->dissipation_1_s > 0.0) variant.defines.emplace_back("FADES", "");
         advect_smoke_.emplace(gpu, "advect smoke", shader, u_.layout(), variant);
         if (!smoke_balls_.empty()) {
@@ -51,10 +57,10 @@ Yang2009Fluid::Yang2009Fluid(Gpu& gpu, FluidSetup setup)
             smoke_sources_.emplace(gpu, "smoke sources", shader, u_.layout(), variant);
         }
     }
-    reset();
+    start_over();
 }
 
-void Yang2009Fluid::reset() {
+void Yang2009Fluid::start_over() {
     const glm::ivec3 n = setup_.cells;
     std::vector<glm::vec3> u = setup_.velocities_at_start;
     for (int z = 0; z < n.z && setup_.velocities_at_start.empty(); ++z)
@@ -115,7 +121,9 @@ void Yang2009Fluid::free_of_divergence() {
     }
 }
 
-void Yang2009Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool wants_diagnosis) {
+void Yang2009Fluid::move_on(double dt_s, const std::vector<BodyState>& bodies, bool wants_diagnosis) {
+    health_.draw({.velocity = &u_.texture(), .phi = &phi_.texture(), .smoke = smoke()}, sound(setup_, dt_s),
+                 results_.row());
     dt_s_ = dt_s;
     bodies_ = bodies;
     body_uniforms_.set(bodies);
@@ -165,7 +173,7 @@ void Yang2009Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool
         Gpu::Stage stage(gpu_, "diagnose");
         diagnose(d);
     }
-    if (force_ || wants_diagnosis) {
+    {
         Gpu::Stage stage(gpu_, "read back");
         results_.request(step_, dt_s, wants_diagnosis);
     }

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "gles/fluid/fluid.h"
+#include "gles/fluid/health.h"
 #include "gles/fluid/resample.h"
 #include "gles/fluid/results.h"
 #include "gles/fluid/transport.h"
@@ -26,10 +27,7 @@ class Yang2009Fluid final : public Fluid {
   public:
     Yang2009Fluid(Gpu& gpu, FluidSetup setup);
 
-    void step(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
-    std::optional<StepResult> result(bool wait) override { return results_.take(wait); }
     long steps() const override { return step_; }
-    void reset() override;
     const Field<Cells>* smoke() const override { return smoke_ ? &*smoke_ : nullptr; }
     /// At cell centres: (nx)(ny)(nz) entries; in obstacle cells the obstacle's velocity.
     std::vector<glm::vec3> velocity() const override;
@@ -38,6 +36,9 @@ class Yang2009Fluid final : public Fluid {
     void set_velocity(const std::vector<glm::vec3>& u) override;
 
   private:
+    void move_on(double dt_s, const std::vector<BodyState>& bodies, bool diagnose) override;
+    std::optional<StepResult> take_result(bool wait) override { return results_.take(wait); }
+    void start_over() override;
     FluidState state() const override;
     void resume(const FluidState& from) override;
     /// Projects u_ as it is, with the bodies where they are: no time passes, and nobody feels anything.
@@ -76,7 +77,8 @@ class Yang2009Fluid final : public Fluid {
     std::optional<Resample> resample_;  ///< to take over from another
     std::optional<Pass> diagnose_;
     std::optional<Reduce> reduce_diagnosis_;
-    Results results_;  // loads and diagnosis
+    HealthCheck health_;
+    Results results_;  // loads, diagnosis and health
 };
 
 }  // namespace eddy::gles

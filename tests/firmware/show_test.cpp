@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "tests/gles/gl_fixture.h"
+#include "tests/stability/fluid_inside.h"
 
 namespace eddy {
 namespace {
@@ -254,6 +255,92 @@ TEST_F(ShowTest, RestKeepsTheFluidAliveForTheHapticLoop) {
         in.device = HapticState::Ready;
         in.reading = HandleReading{glm::dvec3(0.0), 0, now};
         EXPECT_NE(law(state, in, 1ms).reason, GateReason::FluidStale) << n << " ms";
+    }
+}
+
+TEST_F(ShowTest, AnAnswerThatIsNoneLeavesTheLastOneStanding) {
+    Show show(gpu, scene_with(""), exchange);
+    stir(show, exchange, 12, [](int) {});
+    const FluidSnapshot good = exchange.fluid.newest();
+    const auto step = [&](int n) {
+        hand_at({0.1, 0.08 + 0.001 * (n - 12), 0.08}, n * 20ms);
+        show.update(n * 20ms, kDt, false);
+        show.publish(true);
+        return exchange.fluid.newest();
+    };
+    gles::poison(gles::inside(show.fluid()).on_faces->texture(), {3, 4},
+                 std::numeric_limits<float>::quiet_NaN());
+    const FluidSnapshot held = step(13);
+    EXPECT_EQ(held.sequence, good.sequence);
+    EXPECT_EQ(held.force_n, good.force_n);
+    EXPECT_EQ(show.guards().unsound_steps, 1);
+    const FluidSnapshot next = step(14);
+    EXPECT_EQ(next.sequence, good.sequence + 1);
+    EXPECT_LT(glm::length(next.force_n), 4.0 * glm::length(good.force_n));
+    EXPECT_EQ(show.guards().unsound_steps, 1);
+}
+
+TEST_F(ShowTest, ASlowFrameIsMadeUpForInStepsAlongTheHandsWay) {
+    Show show(gpu, scene_with(""), exchange);
+    Instant now{0};
+    double x = 0.07;
+    const auto update = [&](Instant dt) {  // at 0.1 m/s
+        now += dt;
+        x += 0.1 * Seconds(dt).count();
+        hand_at({x, 0.08, 0.08}, now);
+        show.update(now, dt, false);
+        show.publish(true);
+    };
+    for (int n = 0; n < 10; ++n) update(20ms);
+    const glm::dvec3 before = exchange.fluid.newest().force_n;
+    const long steps = show.fluid().steps();
+    update(80ms);
+    EXPECT_EQ(show.fluid().steps(), steps + 4);
+    EXPECT_EQ(show.figures().steps, 11);
+    EXPECT_EQ(show.figures().sub_steps, 3);
+    EXPECT_NEAR(show.bodies().at(0).centre_m.x, x, 1e-12);
+    EXPECT_NEAR(show.bodies().at(0).velocity_m_s.x, 0.1, 1e-9);
+    EXPECT_EQ(exchange.fluid.newest().computed_for, now) << "the last of them is the answer";
+    EXPECT_LT(glm::length(exchange.fluid.newest().force_n - before), 0.5 * glm::length(before) + 1e-5);
+    gles::finish();
+    show.publish(false);
+    update(20ms);
+    EXPECT_EQ(show.fluid().steps(), steps + 5);
+    EXPECT_EQ(exchange.fluid.newest().computed_for, now);
+}
+
+TEST_F(ShowTest, AMachineThatIsAlwaysSlowTakesOneStepAtATime) {
+    Show show(gpu, scene_with(""), exchange);
+    for (int n = 1; n <= 10; ++n) {
+        hand_at({0.08, 0.08, 0.08}, n * 100ms);
+        show.update(n * 100ms, Seconds(0.1), false);
+        show.publish(true);
+    }
+    EXPECT_EQ(show.fluid().steps(), 10);
+    EXPECT_EQ(show.figures().sub_steps, 0);
+}
+
+TEST_F(ShowTest, AHandThatLeapsIsPlacedAndPushesNothing) {
+    for (const double leap_m : {0.004, 0.07}) {
+        HapticExchange own;
+        Show show(gpu, scene_with(""), own);
+        for (int n = 1; n <= 4; ++n) {
+            own.pose.publish({{n < 3 ? 0.04 : 0.04 + leap_m, 0.08, 0.08},
+                              glm::dvec3(0.0),
+                              static_cast<std::uint64_t>(n),
+                              n * 20ms,
+                              0,
+                              true});
+            show.update(n * 20ms, kDt, false);
+            show.publish(true);
+            if (n != 3) continue;
+            const bool leaps = leap_m > 0.05;
+            EXPECT_EQ(show.bodies().at(0).centre_m.x, 0.04 + leap_m);
+            EXPECT_EQ(show.bodies().at(0).velocity_m_s.x > 0.0, !leaps);
+            EXPECT_EQ(show.figures().placed, leaps ? 1 : 0);
+            if (leaps) EXPECT_LT(glm::length(own.fluid.newest().force_n), 1e-9);
+        }
+        EXPECT_TRUE(std::isfinite(glm::length(own.fluid.newest().force_n)));
     }
 }
 

@@ -137,14 +137,14 @@ TEST(ForceGate, ASilentDeviceLatchesUntilResetAndAgainIfStillSilent) {
     EXPECT_EQ(repeat(gate, wanted(glm::dvec3(1.0)), 100), glm::dvec3(0.0));
 }
 
-TEST(ForceGate, FadesAStaleForceToZeroIn100msHoweverSlowTheSlew) {
+TEST(ForceGate, FadesAStaleForceToZeroIn40msHoweverSlowTheSlew) {
     for (const double slew : {100.0, 10.0}) {
         ForceGate gate = opened(glm::dvec3(0.0, 8.0, 0.0), {.slew_n_per_s = slew});
         GateInput stale = wanted(glm::dvec3(5.0, 5.0, 5.0));  // nobody believes this one
         stale.fluid_stale = true;
-        for (int i = 1; i < 100; ++i) {
+        for (int i = 1; i < 40; ++i) {
             const glm::dvec3 force = gate(stale, kNominalTick);
-            EXPECT_NEAR(glm::length(force - glm::dvec3(0.0, 8.0 * (1.0 - i / 100.0), 0.0)), 0.0, 1e-12);
+            EXPECT_NEAR(glm::length(force - glm::dvec3(0.0, 8.0 * (1.0 - i / 40.0), 0.0)), 0.0, 1e-12);
             EXPECT_NE(force.y, 0.0);
         }
         EXPECT_EQ(gate(stale, kNominalTick), glm::dvec3(0.0));
@@ -152,7 +152,7 @@ TEST(ForceGate, FadesAStaleForceToZeroIn100msHoweverSlowTheSlew) {
     }
 }
 
-TEST(ForceGate, TheFadeEndsAt100msForAnyTickLength) {
+TEST(ForceGate, TheFadeTakesAsLongForAnyTickLength) {
     for (const int ticks : {1, 25, 100, 400}) {
         ForceGate gate = opened(glm::dvec3(0.0, 8.0, 0.0));
         GateInput stale = wanted(glm::dvec3(0.0, 8.0, 0.0));

@@ -56,7 +56,7 @@ class LeastResidualTest : public GlTest {
         return unpack_four(field.texture().download(), field.layout(), n);
     }
     void correct(const Values& z, float scale = 1.0f) {
-        least.correct(phi, scale, r, upload(z), upload(minus(download(r), times_a(z))));
+        least.correct(phi, scale, 1e30f, r, upload(z), upload(minus(download(r), times_a(z))));
     }
     /// How far what is called the residual is from being it.
     double drift() const { return length(minus(download(r), minus(b, times_a(download(phi))))); }
@@ -154,7 +154,8 @@ TEST_F(LeastResidualTest, DoesNotCountThePaddingOfTheLastSlab) {
         least.restart();
         phi = upload(Values(b.size()));
         r = with_padding(b, padding);
-        least.correct(phi, 1.0f, r, with_padding(z, padding), with_padding(minus(b, times_a(z)), padding));
+        least.correct(phi, 1.0f, 1e30f, r, with_padding(z, padding),
+                      with_padding(minus(b, times_a(z)), padding));
         return download(phi);
     };
     const Values clean = corrected(0.0f);
@@ -186,7 +187,7 @@ TEST_F(LeastResidualTest, OfSomethingThatIsNoNumberLeavesAllOthersAsTheyWere) {
         broken[17] = bad;
         r = upload(broken);
         // A cycle carries it to all coarse cells, and so everywhere.
-        least.correct(phi, 1.0f, r, upload(Values(b.size(), bad)), upload(Values(b.size(), bad)));
+        least.correct(phi, 1.0f, 1e30f, r, upload(Values(b.size(), bad)), upload(Values(b.size(), bad)));
         EXPECT_EQ(download(phi), was) << bad;
         r = upload(whole);
     }

@@ -46,7 +46,7 @@ class ViscousStep : public GlTest {
         return field;
     }
     std::vector<glm::vec3> solve(Tank& t, const Field<Faces>& guess, const Field<Faces>& u, int cycles) {
-        const Field<Faces> result = t.term.diffuse(guess, u, 1.0, cycles, t.walls.time(0.0));
+        const Field<Faces> result = t.term.diffuse(guess, 1e30f, u, 1.0, cycles, t.walls.time(0.0));
         return unpack_vectors(result.texture().download(), result.layout());
     }
     /// Values of f(component, x, y, z) on the faces of the tank; 0 on its walls.

@@ -28,16 +28,16 @@ class StillSmoke final : public Fluid {
                 }
         smoke_->texture().upload(texels.data());
     }
-    void step(double, const std::vector<BodyState>&, bool) override {}
-    std::optional<StepResult> result(bool) override { return {}; }
     long steps() const override { return 0; }
-    void reset() override {}
     const Field<Cells>* smoke() const override { return smoke_ ? &*smoke_ : nullptr; }
     std::vector<glm::vec3> velocity() const override { return {}; }
     std::vector<float> pressure() const override { return {}; }
     void set_velocity(const std::vector<glm::vec3>&) override {}
 
   private:
+    void move_on(double, const std::vector<BodyState>&, bool) override {}
+    std::optional<StepResult> take_result(bool) override { return {}; }
+    void start_over() override {}
     FluidState state() const override { return {.setup = setup_, .bodies = bodies_}; }
     void resume(const FluidState&) override {}
     std::optional<Field<Cells>> smoke_;

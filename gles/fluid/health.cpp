@@ -1,0 +1,67 @@
+#include "gles/fluid/health.h"
+
+#include <fmt/format.h>
+
+#include "gles/fluid/results.h"
+
+namespace eddy::gles {
+namespace {
+
+/// Layers that one fragment looks through: few enough that a graphics card has all its lanes at work.
+constexpr int kLayers = 8;
+
+int parts(const FluidSetup& setup) {
+    return (setup.cells.z + kLayers - 1) / kLayers;
+}
+
+Variant variant_of(const FluidSetup& setup) {
+    Variant v{.layouts = {{"SCALARS", Cells::layout(setup.cells)}},
+              .defines = {{"PARTS", fmt::format("{}", parts(setup))}}};
+    if (setup.smoke) v.defines.emplace_back("SMOKE", "");
+    if (setup.temperature && setup.solver.method == Method::CutCell)
+        v.defines.emplace_back("TEMPERATURE", "");
+    return v;
+}
+
+Variant with_flow(Variant v, const FluidSetup& setup, const AtlasLayout& velocity, const AtlasLayout& phi) {
+    v.layouts.emplace_back("VELOCITY", velocity);
+    v.layouts.emplace_back("PHI", phi);
+    v.defines.emplace_back("FLOW", "");
+    if (setup.viscosity_pa_s > 0.0 && setup.solver.method == Method::CutCell)
+        v.defines.emplace_back("DIFFUSED", "");
+    return v;
+}
+
+}  // namespace
+
+HealthCheck::HealthCheck(Gpu& gpu, const FluidSetup& setup, const AtlasLayout& velocity,
+                         const AtlasLayout& phi)
+    : HealthCheck(gpu, setup, glm::ivec2(velocity.size), with_flow(variant_of(setup), setup, velocity, phi)) {
+}
+
+HealthCheck::HealthCheck(Gpu& gpu, const FluidSetup& setup)
+    : HealthCheck(gpu, setup, glm::ivec2(setup.cells), variant_of(setup)) {}
+
+HealthCheck::HealthCheck(Gpu& gpu, const FluidSetup& setup, const glm::ivec2& columns, Variant variant)
+    : gpu_(&gpu),
+      to_(Results::health_texel(setup)),
+      layout_(AtlasLayout::tile({columns, parts(setup)})),
+      count_(gpu, "health", "gles/fluid/health.frag", layout_, variant),
+      sum_(gpu, "reduce health", layout_.texels(), {Results::width(setup), 1}, "vec4(0.0, 0.0, 0.0, 1.0)") {}
+
+void HealthCheck::draw(const State& state, const Sound& sound, const Texture& row) {
+    Gpu::Stage stage(*gpu_, "health");
+    std::vector<Input> inputs;
+    if (state.velocity) {
+        // Before the first step nothing has been diffused.
+        const Texture* diffused = state.diffused ? state.diffused : state.velocity;
+        inputs = {{"velocity", state.velocity}, {"phi", state.phi}, {"diffused", diffused}};
+    }
+    if (state.smoke) inputs.push_back({"smoke", &state.smoke->texture()});
+    if (state.temperature) inputs.push_back({"temperature", &state.temperature->texture()});
+    const TexturePool::Lease counts = gpu_->textures().lease(layout_.texels(), Format::RGBA32F);
+    count_.draw(inputs, {{"fastest", sound.fastest_m_s}, {"most_phi", sound.most_phi}}, {&*counts});
+    sum_.draw(*counts, row, to_);
+}
+
+}  // namespace eddy::gles
