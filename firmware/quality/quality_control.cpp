@@ -49,7 +49,7 @@ Quality QualityControl::first() const {
     return governor_ ? ladder_[governor_->figures().rung].quality : all().front();
 }
 
-std::optional<QualityControl::Change> QualityControl::update(Instant now, Seconds interval, Seconds elsewhere,
+std::optional<QualityControl::Change> QualityControl::update(Instant now, const Interval& since_last,
                                                              std::uint8_t buttons) {
     if (setup_.presets.size() > 1) {
         const auto chosen = presets_.look(now, buttons);
@@ -62,8 +62,10 @@ std::optional<QualityControl::Change> QualityControl::update(Instant now, Second
     }
     if (!governor_) return std::nullopt;
     // What went elsewhere made it late only where it did not fit into what the fluid left of its period.
-    const Seconds on_time = std::min(interval, Seconds(scene_.solver.dt_s));
-    const auto rung = governor_->update(std::max(interval - elsewhere, on_time));
+    const Seconds on_time = std::min(since_last.length, Seconds(scene_.solver.dt_s));
+    const Seconds of_a_step =
+        (since_last.length - since_last.elsewhere) / static_cast<double>(since_last.steps);
+    const auto rung = governor_->update(std::max(of_a_step, on_time));
     if (!rung) return std::nullopt;
     return Change{ladder_[*rung].quality, governor_->figures().reason};
 }

@@ -30,9 +30,14 @@ class QualityControl {
         Quality quality;
         std::string reason;
     };
-    /// After each update of the fluid; `interval` since the last, and how much of it went `elsewhere`, into pictures or what
-    /// work() does: that made the fluid late, but no other quality would help. The change, if there is one.
-    std::optional<Change> update(Instant now, Seconds interval, Seconds elsewhere, std::uint8_t buttons);
+    /// From one update of the fluid to the next.
+    struct Interval {
+        Seconds length{0.0};
+        Seconds elsewhere{0.0};  ///< of it, into pictures or work(): no other quality would help against that
+        long steps = 1;          ///< taken in it, several where a delay is made up for
+    };
+    /// After each update. The change, if there is one.
+    std::optional<Change> update(Instant now, const Interval& since_last, std::uint8_t buttons);
     /// Now and then: how long a step kept the machine busy.
     void step_took(double busy_ms);
 

@@ -173,7 +173,8 @@ class Run {
     RestWatch watch_;
     bool moves_by_itself_;
     Instant rest_ends_{0};
-    Seconds elsewhere_{0.0};  ///< of the interval until the next update: spent beside the fluid
+    Seconds elsewhere_{0.0};  ///< of the interval until the next update: spent beside the fluid,
+    long steps_ = 1;          ///< and steps that the fluid takes in it
     TickTrace trace_;
     std::vector<TickRecord> ticks_{4096};
     std::optional<HapticLoop> loop_;
@@ -234,9 +235,9 @@ void Run::go_on(Instant now, Seconds interval) {
         return;
     }
     rest_ends_ = now + kRestPeriod;
+    const QualityControl::Interval since_last{interval, elsewhere, steps_};
     fluid_update(now, std::min(interval, kLongestStep));
-    if (const auto change = quality_.update(now, interval, elsewhere, pose.buttons))
-        change_quality(*change, now);
+    if (const auto change = quality_.update(now, since_last, pose.buttons)) change_quality(*change, now);
 }
 
 Seconds Run::beside_the_fluid(const std::function<void()>& work) {
@@ -254,8 +255,11 @@ void Run::fluid_update(Instant now, Seconds dt) {
     // Not the same step: to look into one takes time.
     const bool time = show_.figures().steps % kMeasureEvery == 0;
     const double start_ms = time ? Stopwatch::now().wall_ms : 0.0;
+    const long before = show_.fluid().steps();
     show_.update(now, dt, measure);
-    if (time && !measure) quality_.step_took(Stopwatch::now().wall_ms - start_ms);
+    steps_ = std::max(show_.fluid().steps() - before, 1L);
+    if (time && !measure)
+        quality_.step_took((Stopwatch::now().wall_ms - start_ms) / static_cast<double>(steps_));
     step_rate_.add_step();
     stopwatch_.set_on(false);
 }

@@ -46,11 +46,11 @@ class QualityControlTest : public gles::GlTest {
 
     /// A show that goes on for so long; all changes of quality in it.
     std::vector<QualityControl::Change> show(QualityControl& control, Seconds length, Seconds interval,
-                                             Seconds elsewhere = kNothing) {
+                                             Seconds elsewhere = kNothing, long steps = 1) {
         std::vector<QualityControl::Change> changes;
         for (const Instant end = now + std::chrono::duration_cast<Instant>(length); now < end;) {
             now += std::chrono::duration_cast<Instant>(interval);
-            if (auto change = control.update(now, interval, elsewhere, kNone))
+            if (auto change = control.update(now, {interval, elsewhere, steps}, kNone))
                 changes.push_back(std::move(*change));
         }
         return changes;
@@ -121,6 +121,13 @@ TEST_F(QualityControlTest, DoesNotBlameTheFluidForWhatPicturesMadeLate) {
     EXPECT_EQ(show(control, Seconds(3.0), Seconds(0.055), Seconds(0.025)).size(), 1u);
 }
 
+TEST_F(QualityControlTest, DoesNotTakeStepsThatMakeUpForADelayForSlowOnes) {
+    keep_a_tuning();
+    QualityControl control = this->control();
+    EXPECT_TRUE(show(control, Seconds(60.0), Seconds(0.042), kNothing, 3).empty()) << "14 ms each";
+    EXPECT_EQ(show(control, Seconds(3.0), Seconds(0.09), kNothing, 3).size(), 1u) << "30 ms each";
+}
+
 TEST_F(QualityControlTest, TunesInTheQuietAndGoesOnWithWhatItFound) {
     QualityControl control = this->control();
     EXPECT_EQ(control.note(), "not tuned: " + file.string() + " does not exist");
@@ -180,7 +187,7 @@ TEST_F(PresetsOfVisitors, FollowTheButtonsAndNoTuning) {
     const Quality yang{SolverPreset::Yang2009, 13, 40};
     EXPECT_THAT(control.all(), ElementsAre(fast(13, 2), yang));
     EXPECT_TRUE(show(control, Seconds(10.0), 3 * kPeriod).empty()) << "nothing governs what a visitor chose";
-    const auto change = control.update(now += 20ms, kPeriod, kNothing, kRight);
+    const auto change = control.update(now += 20ms, {kPeriod}, kRight);
     ASSERT_TRUE(change);
     EXPECT_EQ(change->quality, yang);
 }
@@ -207,7 +214,7 @@ TEST_F(PresetsOfVisitors, ThatCannotBeMeasuredAreShownAllTheSame) {
     for (int i = 0; i < 10; ++i) EXPECT_FALSE(control.work());
     EXPECT_FALSE(control.force_error(fast(13, 2)));
     EXPECT_THAT(control.note(), StartsWith("measuring was given up: "));
-    EXPECT_TRUE(control.update(20ms, kPeriod, kNothing, kRight));
+    EXPECT_TRUE(control.update(20ms, {kPeriod}, kRight));
 }
 
 }  // namespace
