@@ -63,9 +63,16 @@ std::vector<std::vector<const Case*>> asked_for(const Order& order) {
 std::vector<glm::ivec3> grids_for(const std::vector<const Case*>& row, const Order& order) {
     std::vector<glm::ivec3> grids;
     for (const std::string& name : order.grids) grids.push_back(grid_named(name));
+    if (row.size() == 1 && !row.front()->grids.empty()) {
+        std::vector<glm::ivec3> own = row.front()->grids;
+        if (!grids.empty())
+            std::erase_if(own, [&](const glm::ivec3& n) {
+                return std::find(grids.begin(), grids.end(), n) == grids.end();
+            });
+        return own;
+    }
     if (!grids.empty()) return grids;
     if (row.size() > 1) return {glm::ivec3(25)};
-    if (!row.front()->grids.empty()) return row.front()->grids;
     if (order.extent == Extent::Quick) return {glm::ivec3(8)};
     if (order.extent == Extent::Usual || row.front()->small_only) return {glm::ivec3(8), glm::ivec3(25)};
     return {glm::ivec3(8), glm::ivec3(25), glm::ivec3(33, 47, 29), glm::ivec3(64)};

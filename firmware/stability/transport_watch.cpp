@@ -19,6 +19,7 @@ TransportWatch::~TransportWatch() {
 void TransportWatch::begin_step(const gles::Fluid& fluid) {
     cells_ = fluid.setup().cells;
     passes_.clear();
+    watching_ = true;
     before_ = after_ = {};
     for (const glm::vec3& u : fluid.velocity()) before_.add(u);
     for (const gles::SourceSetup& source : fluid.setup().sources)
@@ -26,12 +27,12 @@ void TransportWatch::begin_step(const gles::Fluid& fluid) {
 }
 
 void TransportWatch::see(std::string_view stage, bool begins) {
-    if (begins || stage != "advect velocity" || passes_.empty()) return;
+    if (!watching_ || begins || stage != "advect velocity" || passes_.empty()) return;
+    watching_ = false;
     // What the last pass of the stage wrote; the texture is used again later in the step.
     const gles::AtlasLayout layout = gles::Faces::layout(cells_);
     for (const glm::vec3& u : gles::unpack_vectors(passes_.back().outputs.at(0)->download(), layout))
         after_.add(u);
-    passes_.clear();
 }
 
 double TransportWatch::overshoot_m_s() const {

@@ -12,7 +12,7 @@ class TransportWatch {
     TransportWatch(const TransportWatch&) = delete;
     TransportWatch& operator=(const TransportWatch&) = delete;
 
-    /// A step is about to be taken.
+    /// A step is about to be taken that is worth a look, which costs as much as a step.
     void begin_step(const gles::Fluid& fluid);
     /// How far a component of the velocity has gone beyond its extremes before the step and the velocities of jets [m/s];
     /// 0 if it has not.
@@ -30,6 +30,7 @@ class TransportWatch {
 
     gles::Gpu& gpu_;
     glm::ivec3 cells_{0};
+    bool watching_ = false;  ///< the step that was announced
     std::vector<gles::PassRecord> passes_;
     Range before_, after_;
 };

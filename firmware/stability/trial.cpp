@@ -150,9 +150,10 @@ void Run::step() {
     const Moment moment = moment_now();
     prepare(moment);
     hand_.tick(moment.dt_s, moment.hand_m, rig_->answer(), !moment.holds_answer, rule_, history_);
-    if (transport_) transport_->begin_step(rig_->fluid());
+    const bool watched = transport_ && step_ % between_looks_ == 0;
+    if (watched) transport_->begin_step(rig_->fluid());
     rig_->step(moment, hand_.pose(), hand_.now());
-    if (transport_) judge_transport();
+    if (watched) judge_transport();
     time_s_ += std::max(0.0, moment.dt_s);
     const std::vector<gles::BodyState>& bodies = rig_->fluid().bodies();
     history_.steps.push_back({time_s_, moment.dt_s, moment.disturbs(), resets_, loads(), bodies});

@@ -60,6 +60,10 @@ Ended eddy(std::vector<std::string> arguments) {
     return Program(eddy_command(std::move(arguments))).wait();
 }
 
+bool has_gnuplot() {
+    return Program({"env", "gnuplot", "--version"}).wait().status == 0;
+}
+
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;
     std::istringstream in(text);

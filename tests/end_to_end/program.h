@@ -38,6 +38,9 @@ Ended eddy(std::vector<std::string> arguments);
 /// What Program takes to start the eddy under test.
 std::vector<std::string> eddy_command(std::vector<std::string> arguments);
 
+/// Whether pictures of plots can be drawn here.
+bool has_gnuplot();
+
 /// Makes any scene quick, with --set.
 inline const std::string kTiny = "tank.cells=[16,16,16]";
 

@@ -17,10 +17,6 @@ std::vector<std::string> small_sweep(const std::string& out, const std::vector<s
     return arguments;
 }
 
-bool has_gnuplot() {
-    return Program({"env", "gnuplot", "--version"}).wait().status == 0;
-}
-
 TEST(Sweep, PartsPutTogetherAreTheWhole) {
     const ScratchFolder folder;
     for (const std::string part : {"1", "2"}) {

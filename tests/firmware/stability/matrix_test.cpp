@@ -42,6 +42,8 @@ TEST(HardMatrix, ACaseIsTriedOnTheGridsThatAreAskedFor) {
     EXPECT_EQ(cells[0].trial, (Trial{glm::ivec3(9), Effort::Default}));
     EXPECT_EQ(cells[3].trial, (Trial{glm::ivec3(8, 8, 16), Effort::Least}));
     EXPECT_EQ(cells[5].name(), "stall+cup");
+    EXPECT_EQ(cells_of({.cases = {"27"}, .grids = {"8", "9", "10"}}).size(), 4u)
+        << "a case about grids has its own";
     EXPECT_THAT(complaint_about([] { cells_of({.cases = {"4+cup"}}); }), HasSubstr("4 is several cases"));
     EXPECT_THAT(complaint_about([] { cells_of({.cases = {"jacobi-stopped-early+cup"}}); }),
                 HasSubstr("alone"));

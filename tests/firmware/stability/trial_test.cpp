@@ -111,10 +111,11 @@ TEST_F(TrialTest, NewExtremesOfTransportWouldBeSeen) {
     EXPECT_NEAR(step_after(-1.0f, -1.5f), 0.5, 1e-6);
 }
 
-TEST_F(TrialTest, WithoutFrictionAndForcingNoTransportMakesEnergy) {
-    for (const Case* one : cases_named("14")) {
-        const Outcome outcome = outcome_of(*one, 1000);
-        EXPECT_TRUE(outcome.verdict.pass) << one->name << ": " << outcome.verdict.reason;
+// For 1000 of its 10 000 steps, and not with second order in time: docs/stability.md says what becomes of those.
+TEST_F(TrialTest, WithoutFrictionAndForcingTransportMakesNoEnergyForALongTime) {
+    for (const char* name : {"inviscid-first-order", "inviscid-maccormack"}) {
+        const Outcome outcome = outcome_of(*cases_named(name).front(), 1000);
+        EXPECT_TRUE(outcome.verdict.pass) << name << ": " << outcome.verdict.reason;
     }
 }
 
