@@ -34,9 +34,13 @@ void Rule::begin(const Fields& fields) {
 }
 
 void Rule::blame(long step, const std::string& reason) {
+    fail(fmt::format("step {}: {}", step, reason));
+}
+
+void Rule::fail(std::string reason) {
     if (!verdict_.pass) return;
     verdict_.pass = false;
-    verdict_.reason = fmt::format("step {}: {}", step, reason);
+    verdict_.reason = std::move(reason);
 }
 
 void Rule::see(const StepSeen& step) {
@@ -121,14 +125,18 @@ void Rule::see_calm(const StepSeen& step) {
 
 void Rule::feel(const glm::dvec3& force_n, double dt_s) {
     const double rounding = 1e-9;
+    felt_s_ += dt_s;
+    const auto complain = [&](const std::string& reason) {
+        fail(fmt::format("{:.3f} s of the hand: {}", felt_s_, reason));
+    };
     const double now = glm::length(force_n), before = glm::length(felt_n_);
-    if (!is_finite(force_n)) return blame(0, "the hand gets a force that is not finite");
+    if (!is_finite(force_n)) return complain("it gets a force that is not finite");
     if (now > hand_.most_n + rounding)
-        blame(0, fmt::format("the hand gets {:.3g} N, more than its {:.3g} N", now, hand_.most_n));
+        complain(fmt::format("it gets {:.3g} N, more than its {:.3g} N", now, hand_.most_n));
     const double step = glm::length(force_n - felt_n_);
     const bool falls = step <= before - now + rounding;  // straight towards zero
     if (!falls && step > hand_.slew_n_per_s * dt_s + rounding)
-        blame(0, fmt::format("the force on the hand changes by {:.3g} N in {:.3g} ms", step, 1e3 * dt_s));
+        complain(fmt::format("its force changes by {:.3g} N in {:.3g} ms", step, 1e3 * dt_s));
     felt_n_ = force_n;
 }
 

@@ -81,6 +81,7 @@ class Rule {
     bool failed() const { return !verdict_.pass; }
 
   private:
+    void fail(std::string reason);
     void judge(const StepSeen& step);
     void see_loads(const StepSeen& step);
     void see_calm(const StepSeen& step);
@@ -91,6 +92,7 @@ class Rule {
     double start_energy_j_ = 0.0, start_speed_m_s_ = 0.0;
     FieldRange start_smoke_, start_temperature_k_;
     glm::dvec3 felt_n_{0.0};
+    double felt_s_ = 0.0;  ///< how long the hand has felt
     // of the calm after the last disturbance
     double peak_force_n_ = 0.0, force_n_ = 0.0;
     double energy_j_ = 0.0, calm_energy_j_ = 0.0, calm_since_s_ = 0.0, time_s_ = 0.0;

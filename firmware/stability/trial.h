@@ -13,8 +13,7 @@ struct Outcome {
     double wall_s = 0.0;
 };
 
-/// What two at once are changed to: see Case. The criteria of the single cases do not hold for both at once: of two, only the
-/// rule is judged.
+/// Two at once take no more. What single cases want cannot be wanted of both at once: then only the rule is judged.
 inline constexpr long kStepsOfPair = 200;
 
 /// Tries it, for at most `most_steps`.
