@@ -56,6 +56,7 @@ Ledger::Ledger(const Scene& scene, const gles::FluidSetup& setup, double narrowi
     }
     justified_.narrowing = narrowing;
     justified_.rest_speed_m_s = std::sqrt(glm::length(setup.gravity_m_s2) * tank_.longest_m());
+    faster(largest(scene, scene.initial.velocity_m_s, 0.0));
     others_drive_ = scene.forcing || scene.temperature || (scene.smoke && scene.smoke->weight != 0.0);
     for (const Scene::Source& source : scene.sources) others_drive_ |= source.velocity_m_s.has_value();
     for (const Scene::Wall* wall : scene.tank.walls.all()) others_drive_ |= wall->velocity_m_s.has_value();

@@ -92,6 +92,18 @@ TEST(Ledger, AddsUpWhatSourcesGive) {
     EXPECT_EQ(ledger.justified().temperature_added_k.high, 0.0);
 }
 
+TEST(Ledger, ConfinementMaySpreadWhatIsThereAtTheStart) {
+    const std::string wind = "[initial]\nvelocity_m_s = [\"3 * sin(3.14159265 * y)\", 0.0, 0.0]\n";
+    for (const bool confined : {false, true}) {
+        const Scene scene =
+            scene_of((confined ? "[vorticity_confinement]\nstrength_1_s = 2.0\n" : "") + wind);
+        Ledger ledger(scene, fluid_setup(scene));
+        ledger.add(0.1, 0.1, {}, {});
+        EXPECT_NEAR(ledger.justified().speed_m_s, 3.0, 1e-6);
+        EXPECT_NEAR(ledger.justified().work_j, confined ? 0.5 * 2.0 * 9.0 : 0.0, 1e-6);
+    }
+}
+
 TEST(Ledger, BuoyancyJustifiesTheFallOfWhatIsHeavier) {
     const Scene scene =
         scene_of("gravity_m_s2 = [0.0, -10.0, 0.0]\n[smoke]\nweight = 0.1\ninitial = \"0.5 * y\"\n");
