@@ -7,16 +7,12 @@
 namespace eddy::gles {
 namespace {
 
-/// Layers that one fragment looks through: few enough that a graphics card has all its lanes at work.
-constexpr int kLayers = 8;
-
-int parts(const FluidSetup& setup) {
-    return (setup.cells.z + kLayers - 1) / kLayers;
-}
+/// Texels of a row that one fragment looks at: few enough that a graphics card has all its lanes at work.
+constexpr int kRun = 8;
 
 Variant variant_of(const FluidSetup& setup) {
     Variant v{.layouts = {{"SCALARS", Cells::layout(setup.cells)}},
-              .defines = {{"PARTS", fmt::format("{}", parts(setup))}}};
+              .defines = {{"RUN", fmt::format("{}", kRun)}}};
     if (setup.smoke) v.defines.emplace_back("SMOKE", "");
     if (setup.temperature && setup.solver.method == Method::CutCell)
         v.defines.emplace_back("TEMPERATURE", "");
@@ -27,6 +23,8 @@ Variant with_flow(Variant v, const FluidSetup& setup, const AtlasLayout& velocit
     v.layouts.emplace_back("VELOCITY", velocity);
     v.layouts.emplace_back("PHI", phi);
     v.defines.emplace_back("FLOW", "");
+    const bool packed = 4 * phi.size.z >= setup.cells.z && phi.size.z < setup.cells.z;
+    v.defines.emplace_back("PHI_LAYERS", packed ? "4" : "1");
     if (setup.viscosity_pa_s > 0.0 && setup.solver.method == Method::CutCell)
         v.defines.emplace_back("DIFFUSED", "");
     return v;
@@ -36,16 +34,15 @@ Variant with_flow(Variant v, const FluidSetup& setup, const AtlasLayout& velocit
 
 HealthCheck::HealthCheck(Gpu& gpu, const FluidSetup& setup, const AtlasLayout& velocity,
                          const AtlasLayout& phi)
-    : HealthCheck(gpu, setup, glm::ivec2(velocity.size), with_flow(variant_of(setup), setup, velocity, phi)) {
-}
+    : HealthCheck(gpu, setup, velocity.size, with_flow(variant_of(setup), setup, velocity, phi)) {}
 
 HealthCheck::HealthCheck(Gpu& gpu, const FluidSetup& setup)
-    : HealthCheck(gpu, setup, glm::ivec2(setup.cells), variant_of(setup)) {}
+    : HealthCheck(gpu, setup, setup.cells, variant_of(setup)) {}
 
-HealthCheck::HealthCheck(Gpu& gpu, const FluidSetup& setup, const glm::ivec2& columns, Variant variant)
+HealthCheck::HealthCheck(Gpu& gpu, const FluidSetup& setup, const glm::ivec3& texels, Variant variant)
     : gpu_(&gpu),
       to_(Results::health_texel(setup)),
-      layout_(AtlasLayout::tile({columns, parts(setup)})),
+      layout_(AtlasLayout::tile({(texels.x + kRun - 1) / kRun, texels.y, texels.z})),
       count_(gpu, "health", "gles/fluid/health.frag", layout_, variant),
       sum_(gpu, "reduce health", layout_.texels(), {Results::width(setup), 1}, "vec4(0.0, 0.0, 0.0, 1.0)") {}
 

@@ -1,14 +1,14 @@
-// health.frag     For each part of a column: unsound texels of the flow, of the pressure, of scalars; the greatest speed
+// health.frag     For each part of a row: unsound texels of the flow, of the pressure, of scalars; the greatest speed
 //
 // reads   velocity     RGBA32F  Faces (nx+1, ny+1, nz+1)   [m/s]     or Cells; variant FLOW
 // reads   diffused     RGBA32F  Faces                      [m/s]     variant DIFFUSED
 // reads   phi          RGBA32F  Cells4 (nx, ny, nz)        [m/s]     or R32F Cells; variant FLOW
 // reads   smoke        R32F     Cells                      [1]       variant SMOKE
 // reads   temperature  R32F     Cells                      [K]       variant TEMPERATURE
-// writes  (texels of velocity, of phi, of scalars; max |u|)   RGBA32F, (columns x, y, PARTS)
+// writes  (texels of velocity, of phi, of scalars; max |u|)   RGBA32F, (parts of rows, y, z)
 // fetches 0, FLOW 10, SMOKE 8, TEMPERATURE 8, FLOW+SMOKE 18, FLOW+TEMPERATURE 18, SMOKE+TEMPERATURE 16, FLOW+SMOKE+TEMPERATURE 26, FLOW+DIFFUSED 18, FLOW+DIFFUSED+SMOKE 26, FLOW+DIFFUSED+TEMPERATURE 26, FLOW+DIFFUSED+SMOKE+TEMPERATURE 34
 //
-// Every texel is read once: 8 layers of faces or cells, and 2 of four cells each.
+// Every texel is read once: RUN = 8 of a row of faces or cells; rows of phi are a quarter as many.
 #include "guard.glsl"
 
 #ifdef FLOW
@@ -27,32 +27,39 @@ uniform sampler2D temperature;
 
 out vec4 result;
 
-// First slab of part `part` of a layout.
-int first_slab(const Layout l, int part) {
-    return part * l.size.z / PARTS;
+struct Row {
+    ivec2 first;  // texel
+    int texels;
+};
+
+Row row_of(const Layout l, ivec3 c) {
+    ivec3 first = ivec3(RUN * c.x, c.yz);
+    if (any(greaterThanEqual(first, l.size))) return Row(ivec2(0), 0);
+    return Row(texel_of(l, first), min(RUN, l.size.x - first.x));
 }
 
 float unsound_texels(sampler2D field, const Layout l, ivec3 c, float most) {
+    Row row = row_of(l, c);
     float count = 0.0;
-    if (all(lessThan(c.xy, l.size.xy)))
-        for (int z = first_slab(l, c.z); z < first_slab(l, c.z + 1); ++z)
-            count += float(any(unsound(at(field, l, ivec3(c.xy, z)), most)));
+    for (int i = 0; i < row.texels; ++i) count += float(any(unsound(texelFetch(field, row.first + ivec2(i, 0), 0), most)));
     return count;
 }
 
 void main() {
     ivec3 c = cell_here(TARGET);
     result = vec4(0.0);
-    if (c.z >= PARTS) return;  // the atlas may end in tiles that hold nothing
+    if (c.z >= TARGET.size.z) return;  // the atlas may end in tiles that hold nothing
 #ifdef FLOW
-    for (int z = first_slab(VELOCITY, c.z); z < first_slab(VELOCITY, c.z + 1); ++z) {
-        vec4 u = at(velocity, VELOCITY, ivec3(c.xy, z));
+    Row row = row_of(VELOCITY, c);
+    for (int i = 0; i < row.texels; ++i) {
+        vec4 u = texelFetch(velocity, row.first + ivec2(i, 0), 0);
         if (any(unsound(u, fastest)))
             ++result.x;
         else
-            result.w = max(result.w, length(u.xyz));
+            result.w = max(result.w, dot(u.xyz, u.xyz));
     }
-    result.y += unsound_texels(phi, PHI, c, most_phi);
+    result.w = sqrt(result.w);
+    if (c.z % PHI_LAYERS == 0) result.y += unsound_texels(phi, PHI, ivec3(c.xy, c.z / PHI_LAYERS), most_phi);
 #endif
 #ifdef DIFFUSED
     result.x += unsound_texels(diffused, VELOCITY, c, fastest);

@@ -27,7 +27,7 @@ class HealthCheck {
     void draw(const State& state, const Sound& sound, const Texture& row);
 
   private:
-    HealthCheck(Gpu& gpu, const FluidSetup& setup, const glm::ivec2& columns, Variant variant);
+    HealthCheck(Gpu& gpu, const FluidSetup& setup, const glm::ivec3& texels, Variant variant);
 
     Gpu* gpu_;
     glm::ivec2 to_;  ///< texel of the row

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "tests/gles/gl_fixture.h"
 #include "tests/stability/fluid_inside.h"
@@ -263,7 +264,8 @@ TEST_F(ShowTest, AnAnswerThatIsNoneLeavesTheLastOneStanding) {
     stir(show, exchange, 12, [](int) {});
     const FluidSnapshot good = exchange.fluid.newest();
     const auto step = [&](int n) {
-        hand_at({0.1, 0.08 + 0.001 * (n - 12), 0.08}, n * 20ms);
+        const double angle = 2.0 * 3.14159265358979 * 0.02 * n;  // on with the circle
+        hand_at({0.08 + 0.02 * std::cos(angle), 0.08 + 0.02 * std::sin(angle), 0.08}, n * 20ms);
         show.update(n * 20ms, kDt, false);
         show.publish(true);
         return exchange.fluid.newest();
@@ -338,7 +340,9 @@ TEST_F(ShowTest, AHandThatLeapsIsPlacedAndPushesNothing) {
             EXPECT_EQ(show.bodies().at(0).centre_m.x, 0.04 + leap_m);
             EXPECT_EQ(show.bodies().at(0).velocity_m_s.x > 0.0, !leaps);
             EXPECT_EQ(show.figures().placed, leaps ? 1 : 0);
-            if (leaps) EXPECT_LT(glm::length(own.fluid.newest().force_n), 1e-9);
+            if (leaps) {
+                EXPECT_LT(glm::length(own.fluid.newest().force_n), 1e-9);
+            }
         }
         EXPECT_TRUE(std::isfinite(glm::length(own.fluid.newest().force_n)));
     }

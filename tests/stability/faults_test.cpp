@@ -142,8 +142,9 @@ TEST_P(Faults, InTheFlowAreSeenAndGoneAfterOneStep) {
             EXPECT_LT(far_difference(*fluid, *twin, glm::ivec3(3, 4, 12)), 0.03)
                 << field.name << " " << value;
             // Smoke rises from 0 to 0.16 with y. Where no velocity is known it stays, and is not fetched from anywhere.
-            if (field.counted == &Health::velocity_texels)
+            if (field.counted == &Health::velocity_texels) {
                 EXPECT_LT(smoke_difference(*fluid, *twin), 0.01) << field.name << " " << value;
+            }
             for (const BodyState& body : fluid->bodies()) EXPECT_TRUE(is_finite(body));
             ++n;
             const StepResult second = step(*fluid, n);
