@@ -21,7 +21,7 @@ vec4 sound(vec4 v, float most) {
 vec4 kept(vec4 phi, float most) {
     float limit = 0.125 * most;
     vec4 p = sound(phi, most);
-    return mix(p, clamp(p, -limit, limit), 0.1);  // guard pocket
+    return p - 0.1 * (p - clamp(p, -limit, limit));  // guard pocket
 }
 vec3 sound(vec3 v, float most) {
     return sound(vec4(v, 0.0), most).xyz;

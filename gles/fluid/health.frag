@@ -6,7 +6,7 @@
 // reads   smoke        R32F     Cells                      [1]       variant SMOKE
 // reads   temperature  R32F     Cells                      [K]       variant TEMPERATURE
 // writes  (texels of velocity, of phi, of scalars; max |u|)   RGBA32F, (parts of rows, y, z)
-// fetches 0, FLOW 10, SMOKE 8, TEMPERATURE 8, FLOW+SMOKE 18, FLOW+TEMPERATURE 18, SMOKE+TEMPERATURE 16, FLOW+SMOKE+TEMPERATURE 26, FLOW+DIFFUSED 18, FLOW+DIFFUSED+SMOKE 26, FLOW+DIFFUSED+TEMPERATURE 26, FLOW+DIFFUSED+SMOKE+TEMPERATURE 34
+// fetches 8, FLOW 10, FLOW+SMOKE 18, FLOW+TEMPERATURE 18, SMOKE+TEMPERATURE 16, FLOW+SMOKE+TEMPERATURE 26, FLOW+DIFFUSED 18, FLOW+DIFFUSED+SMOKE 26, FLOW+DIFFUSED+TEMPERATURE 26, FLOW+DIFFUSED+SMOKE+TEMPERATURE 34
 //
 // Every texel is read once: RUN = 8 of a row of faces or cells; rows of phi are a quarter as many.
 #include "guard.glsl"

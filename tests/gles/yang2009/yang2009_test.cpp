@@ -227,12 +227,13 @@ TEST_F(Yang2009, StagesAreThoseOfThePaper) {
     const VoxelGrid grid;
     FluidSetup setup = sphere_setup(grid, 2);
     setup.smoke = SmokeSetup{};
-    EXPECT_EQ(
-        stages_of(gpu, setup, {grid.state()}, true),
-        (std::vector<std::string>{"voxelise", "advect velocity", "advect smoke", "divergence", "pressure",
-                                  "project", "force", "force integral", "diagnose", "read back"}));
+    EXPECT_EQ(stages_of(gpu, setup, {grid.state()}, true),
+              (std::vector<std::string>{"health", "voxelise", "advect velocity", "advect smoke", "divergence",
+                                        "pressure", "project", "force", "force integral", "diagnose",
+                                        "read back"}));
     EXPECT_EQ(stages_of(gpu, unit_setup(grid.n, 2), {}, false),
-              (std::vector<std::string>{"advect velocity", "divergence", "pressure", "project"}));
+              (std::vector<std::string>{"health", "advect velocity", "divergence", "pressure", "project",
+                                        "read back"}));
 }
 
 /// Of one step; the textures they name stay in the pool.
@@ -250,13 +251,13 @@ long passes(const std::vector<PassRecord>& records, std::string_view stage) {
                          [&](const PassRecord& r) { return r.stage == stage; });
 }
 
-TEST_F(Yang2009, OneReadbackOfThreeTexelsBringsTheForce) {
+TEST_F(Yang2009, OneReadbackOfFourTexelsBringsTheForce) {
     const VoxelGrid grid;
     const std::vector<PassRecord> records = records_of(gpu, sphere_setup(grid, 5), grid.state());
     EXPECT_EQ(passes(records, "pressure"), 5);
     EXPECT_EQ(passes(records, "force"), 1);               // T_F and its moment in one pass
     EXPECT_EQ(passes(records, "force integral"), 2 * 4);  // 13 7 4 2 1 cells each
-    EXPECT_EQ(records.back().outputs[0]->size(), glm::ivec2(3, 1));
+    EXPECT_EQ(records.back().outputs[0]->size(), glm::ivec2(4, 1));
 }
 
 TEST_F(Yang2009, ForceThatTheCpuAddsUpIsNotHalvedOnTheGpu) {
@@ -266,7 +267,7 @@ TEST_F(Yang2009, ForceThatTheCpuAddsUpIsNotHalvedOnTheGpu) {
     const std::vector<PassRecord> records = records_of(gpu, setup, grid.state());
     EXPECT_EQ(passes(records, "force"), 1);
     EXPECT_EQ(passes(records, "force integral"), 2);  // each sum goes into the row of results
-    EXPECT_EQ(records.back().outputs[0]->size(), glm::ivec2(3, 1));
+    EXPECT_EQ(records.back().outputs[0]->size(), glm::ivec2(4, 1));
     EXPECT_EQ(records.back().texels, 1);
 }
 
@@ -285,10 +286,10 @@ TEST_F(Yang2009, ViscosityHasItsStageOnlyInAViscousFluid) {
     SourceSetup jet;
     jet.velocity_m_s = glm::dvec3(1.0);
     setup.sources = {jet};
-    EXPECT_EQ(
-        stages_of(gpu, setup, {grid.state()}, false),
-        (std::vector<std::string>{"voxelise", "advect velocity", "viscosity", "drive sources", "divergence",
-                                  "pressure", "project", "force", "force integral", "read back"}));
+    EXPECT_EQ(stages_of(gpu, setup, {grid.state()}, false),
+              (std::vector<std::string>{"health", "voxelise", "advect velocity", "viscosity", "drive sources",
+                                        "divergence", "pressure", "project", "force", "force integral",
+                                        "read back"}));
 }
 
 // Two spheres, one half out of the tank, where the atlas holds texels that are no cells.
