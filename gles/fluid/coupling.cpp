@@ -288,7 +288,10 @@ void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
     const Sums sums = add_up(states, step);
     // guard coupled_sums: what is not a number moves nobody
     std::vector<double> change(3 * triples_.size(), 0.0);
-    if (sums.are_finite()) change = contacts_.solve(newton(states, step, sums), states, unknowns_, step.dt_s);
+    if (sums.are_finite())
+        change = contacts_.solve(newton(states, step, sums), states, unknowns_, step.dt_s);
+    else
+        reset();  // whatever it is comes from what is kept from step to step
     const double fastest_m_s = fastest_body_m_s(setup_, step.dt_s);
     for (std::size_t t = 0; t < triples_.size(); ++t) {
         Triple& triple = triples_[t];
