@@ -23,14 +23,19 @@ const char* to_string(HapticState state);
 
 /// What went wrong since start, one counter for each kind of trouble. Never reset while running.
 struct HapticCounters {
-    std::uint64_t exchanges = 0;    ///< good replies
-    std::uint64_t timeouts = 0;     ///< no reply in time
-    std::uint64_t bad_bytes = 0;    ///< bytes dropped to find the frame again
-    std::uint64_t implausible = 0;  ///< encoder jumps faster than a hand
-    std::uint64_t unsolved = 0;     ///< poses the forward kinematics could not reach
-    std::uint64_t saturated = 0;    ///< commands scaled down to the motors' range
-    std::uint64_t rehomed = 0;      ///< times the homed bits were lost
-    std::uint64_t lost = 0;         ///< times the device went away
+    std::uint64_t exchanges = 0;     ///< good replies
+    std::uint64_t timeouts = 0;      ///< no reply in time
+    std::uint64_t bad_bytes = 0;     ///< bytes dropped to find the frame again
+    std::uint64_t implausible = 0;   ///< encoder jumps faster than a hand
+    std::uint64_t unsolved = 0;      ///< poses the forward kinematics could not reach
+    std::uint64_t saturated = 0;     ///< commands scaled down to the motors' range
+    std::uint64_t rehomed = 0;       ///< times the homed bits were lost
+    std::uint64_t lost = 0;          ///< times the device went away
+    std::uint64_t line_faults = 0;   ///< packets whose status names an overrun, parity, framing or FIFO error
+    std::uint64_t usb_errors = 0;    ///< USB transfers that failed though the device was there
+    std::uint64_t failed_boots = 0;  ///< tries to start it that missed a deadline or were refused,
+    std::uint64_t wrong_echoes = 0;  ///< of these: a byte of the firmware came back changed
+    std::uint64_t given_up = 0;      ///< times it went to Fault
 };
 
 /// The haptic device as the 1 kHz loop sees it. One thread calls everything; no call blocks, allocates or

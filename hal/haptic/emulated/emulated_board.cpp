@@ -57,12 +57,11 @@ void EmulatedBoard::advance(Instant now) {
 }
 
 glm::dvec3 EmulatedBoard::motor_force() const {
-    if (state_ != BoardState::RunHomed || watchdog_bit_) return glm::dvec3(0.0);
+    if (state_ != BoardState::RunHomed || watchdog_bit_ || faults.no_supply) return glm::dvec3(0.0);
     return falcon::force_of(plant_.legs(), command_.motors, settings_.motor_units_per_nm);
 }
 
 EmulatedBoard::Answer EmulatedBoard::receive(Instant now, std::uint8_t byte, double rate) {
-    advance(now);
     Answer answer;
     answer.at = now;
     switch (state_) {
@@ -122,6 +121,7 @@ void EmulatedBoard::pic_byte(std::uint8_t byte, Answer& answer) {
     if (take_one(faults.deaf_calls)) return;
     if (settings_.leading_zero) answer.add(0x00);
     for (const std::uint8_t letter : kAnswer) answer.add(letter);
+    answer.at += faults.slow_answer;
 }
 
 void EmulatedBoard::load_byte(std::uint8_t byte, Answer& answer) {
@@ -143,8 +143,9 @@ void EmulatedBoard::load_byte(std::uint8_t byte, Answer& answer) {
 void EmulatedBoard::run_byte(Instant now, std::uint8_t byte, Answer& answer) {
     const auto frame = finder_.push(byte);
     if (!frame) return;
+    advance(now);
     obey(now, falcon::decode_command(*frame));
-    answer.at = now + settings_.turnaround;
+    answer.at = now + settings_.turnaround + faults.slow_reply;
     if (!take_one(faults.lost_replies)) reply(answer);
 }
 
@@ -162,7 +163,7 @@ void EmulatedBoard::obey(Instant now, const Command& command) {
     if (std::exchange(faults.homing_lost, false)) {
         homed_.fill(false);
         state_ = BoardState::RunUnhomed;
-    } else if (command.homing) {
+    } else if (command.homing && !faults.no_supply) {
         for (std::size_t i = 0; i < homed_.size(); ++i)
             if (falcon::encoder_count(plant_.legs().theta1[i]) < kIndexCount && !(faults.no_index && i == 2))
                 homed_[i] = true;

@@ -29,14 +29,17 @@ struct BoardSettings {
 
 /// Troubles to choose from; each may be changed while running.
 struct BoardFaults {
-    int deaf_calls = 0;            ///< this many of the PIC's next questions stay unanswered
-    int wrong_echo_at = -1;        ///< this byte of the next upload is echoed wrongly, once
-    int lost_replies = 0;          ///< this many of the next replies are not sent
-    int short_replies = 0;         ///< this many of the next replies lose their last two bytes
-    int double_replies = 0;        ///< this many of the next replies are sent twice
-    int garbage = 0;               ///< this many of the next replies follow five bytes of nonsense
-    bool homing_lost = false;      ///< the homed bits are cleared, once, with the next command
-    bool no_index = false;         ///< the left axis never finds its index mark
+    int deaf_calls = 0;        ///< this many of the PIC's next questions stay unanswered
+    int wrong_echo_at = -1;    ///< this byte of the next upload is echoed wrongly, once
+    int lost_replies = 0;      ///< this many of the next replies are not sent
+    int short_replies = 0;     ///< this many of the next replies lose their last two bytes
+    int double_replies = 0;    ///< this many of the next replies are sent twice
+    int garbage = 0;           ///< this many of the next replies follow five bytes of nonsense
+    bool homing_lost = false;  ///< the homed bits are cleared, once, with the next command
+    bool no_index = false;     ///< the left axis never finds its index mark
+    bool no_supply = false;    ///< the 30 V adapter is not plugged in: encoders live, no torque, no homing
+    Instant slow_reply{0};     ///< replies come so much later than the turnaround time
+    Instant slow_answer{0};    ///< the PIC answers so late that its host may have asked again
     falcon::Axes encoder_error{};  ///< added to what the encoders report
 };
 
@@ -68,6 +71,7 @@ class EmulatedBoard {
 
     BoardState state() const { return state_; }
     const Plant& plant() const { return plant_; }
+    Plant& plant() { return plant_; }
     /// The last valid frame; what it asks of the motors holds only in RunHomed and until the watchdog bites.
     const falcon::Command& last_command() const { return command_; }
     /// Largest motor value of any frame, and of those received before homing.

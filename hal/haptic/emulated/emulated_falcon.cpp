@@ -40,12 +40,12 @@ void EmulatedFalcon::poll(Instant now) {
         board_.start(now);
         last_in_ = now;
     }
+    if (packet_due(now_)) send_packet(now_);
     // One event after the other, in the order of their times.
     for (;;) {
         const Instant out_at = to_board_.empty() ? kNever : to_board_.front().at;
         const Instant in_at = to_chip_.empty() ? kNever : to_chip_.front().at;
-        const Instant timer_at =
-            plugged_in_ && !packets_.full() ? std::max(now_, last_in_ + latency_) : kNever;
+        const Instant timer_at = plugged_in_ && has_room() ? std::max(now_, last_in_ + latency_) : kNever;
         const Instant next = std::min({out_at, in_at, timer_at});
         if (next > now) break;
         now_ = std::max(now_, next);
@@ -61,7 +61,8 @@ void EmulatedFalcon::poll(Instant now) {
 
 void EmulatedFalcon::line_to_board() {
     const LineByte arrived = to_board_.pop();
-    const EmulatedBoard::Answer answer = board_.receive(arrived.at, arrived.byte, arrived.rate);
+    const EmulatedBoard::Answer answer =
+        board_.receive(arrived.at, arrived.byte, arrived.rate * (1.0 + rate_error));
     // The board answers at the rate it was asked at: it understood the question.
     Instant at = std::max(answer.at, line_in_free_);
     for (std::size_t i = 0; i < answer.size; ++i) {
@@ -79,8 +80,8 @@ void EmulatedFalcon::line_to_chip() {
 }
 
 bool EmulatedFalcon::packet_due(Instant at) const {
-    if (!plugged_in_ || packets_.full()) return false;
-    return fifo_.size() >= kPayload || event_seen_ || at >= last_in_ + latency_;
+    if (!plugged_in_ || !has_room()) return false;
+    return fifo_.size() >= kPayload || (splits && !fifo_.empty()) || event_seen_ || at >= last_in_ + latency_;
 }
 
 void EmulatedFalcon::send_packet(Instant at) {
@@ -90,7 +91,8 @@ void EmulatedFalcon::send_packet(Instant at) {
     if (std::exchange(overrun_, false)) packet.bytes[1] |= kOverrun;
     if (line_noisy) packet.bytes[1] |= kFramingError;
     packet.size = 2;
-    while (packet.size < falcon::kPacketBytes && !fifo_.empty()) packet.bytes[packet.size++] = fifo_.pop();
+    const std::size_t most = splits ? 3 : falcon::kPacketBytes;
+    while (packet.size < most && !fifo_.empty()) packet.bytes[packet.size++] = fifo_.pop();
     packet.arrived_at = at + kUsbTime;
     packets_.push(packet);
     last_in_ = at;
@@ -107,6 +109,7 @@ void EmulatedFalcon::submit_control(const falcon::ControlRequest& request) {
     if (request_count_ < requests_.size()) requests_[request_count_++] = {now_, request};
     control_done_ = now_ + kControlTime;
     control_failed_ = stalled || !plugged_in_ || !obey(request);
+    failures_ += control_failed_ && plugged_in_ ? 1 : 0;
 }
 
 Transfer EmulatedFalcon::control() const {
@@ -149,6 +152,7 @@ bool EmulatedFalcon::obey(const falcon::ControlRequest& request) {
 void EmulatedFalcon::submit_out(std::span<const std::uint8_t> bytes) {
     out_done_ = now_ + kUsbTime;
     out_failed_ = stalled || !plugged_in_;
+    failures_ += stalled && plugged_in_ ? 1 : 0;
     if (out_failed_) return;
     Instant at = std::max(out_done_, line_out_free_);
     for (const std::uint8_t byte : bytes) {
@@ -161,6 +165,18 @@ void EmulatedFalcon::submit_out(std::span<const std::uint8_t> bytes) {
 Transfer EmulatedFalcon::out() const {
     if (now_ < out_done_) return Transfer::Pending;
     return out_failed_ ? Transfer::Failed : Transfer::Done;
+}
+
+void EmulatedFalcon::close(std::span<const std::uint8_t> last_words) {
+    submit_out(last_words);
+}
+
+void EmulatedFalcon::set_room(std::size_t packets) {
+    room_ = std::min<std::size_t>(packets, 8);
+}
+
+std::uint8_t EmulatedFalcon::latency_ms() const {
+    return static_cast<std::uint8_t>(latency_ / 1ms);
 }
 
 void EmulatedFalcon::unplug() {

@@ -21,11 +21,18 @@ class EmulatedFalcon final : public falcon::Transport {
     void poll(Instant now) override;
     bool present() const override { return plugged_in_; }
     std::string_view serial() const override { return plugged_in_ ? "EMULATED" : ""; }
+    falcon::Obstacle obstacle() const override { return falcon::Obstacle::NotFound; }
+    std::uint64_t failures() const override { return failures_; }
     void submit_control(const falcon::ControlRequest& request) override;
     falcon::Transfer control() const override;
     void submit_out(std::span<const std::uint8_t> bytes) override;
     falcon::Transfer out() const override;
     bool take_in(falcon::Packet& packet) override;
+    void close(std::span<const std::uint8_t> last_words) override;
+
+    /// The host takes so many packets and no more until it says so again: the chip makes none that nobody asked for.
+    void set_room(std::size_t packets);
+    std::uint8_t latency_ms() const;
 
     /// Pulls the USB plug. Put back, the device comes up cold unless its own supply kept it running.
     void unplug();
@@ -44,6 +51,9 @@ class EmulatedFalcon final : public falcon::Transport {
     bool stalled = false;     ///< both pipes refuse transfers
     bool line_noisy = false;  ///< the chip sees framing errors
     bool line_dead = false;   ///< nothing from the board reaches the chip
+    bool splits = false;      ///< each byte from the board travels in a packet of its own
+    double rate_error =
+        0.0;  ///< the board hears the host's bytes this much faster than they were meant, relatively
 
   private:
     struct LineByte {
@@ -57,6 +67,7 @@ class EmulatedFalcon final : public falcon::Transport {
     void line_to_chip();
     void send_packet(Instant at);
     bool packet_due(Instant at) const;
+    bool has_room() const { return packets_.size() < room_; }
     void reset_chip();
 
     EmulatedBoard board_;
@@ -73,6 +84,7 @@ class EmulatedFalcon final : public falcon::Transport {
     Instant last_in_{0};
     Ring<std::uint8_t, 256> fifo_;     // from the line, size as in the FT232R data sheet
     Ring<falcon::Packet, 8> packets_;  // transfers that the host keeps queued
+    std::size_t room_ = 8;             // packets that may wait in there
     Ring<LineByte, 512> to_board_;
     Ring<LineByte, 512> to_chip_;
     Instant line_out_free_{0};
@@ -83,6 +95,7 @@ class EmulatedFalcon final : public falcon::Transport {
     Instant out_done_{0};
     bool control_failed_ = false;
     bool out_failed_ = false;
+    std::uint64_t failures_ = 0;
 
     std::array<Record, 512> requests_{};
     std::size_t request_count_ = 0;

@@ -74,11 +74,11 @@ bool Boot::take_bytes(Take take) {
 
 Progress Boot::configure(Instant now) {
     const Progress progress = requests_.poll(transport_);
-    if (progress == Progress::Done) {
+    if (progress == Progress::Done && transport_.out() != Transfer::Pending) {
         ask(now);
         return Progress::Working;
     }
-    return now > deadline_ ? Progress::Failed : progress;
+    return waiting(now, progress);
 }
 
 void Boot::ask(Instant now) {
@@ -105,13 +105,18 @@ Progress Boot::call(Instant now) {
 
 Progress Boot::switch_over(Instant now) {
     const Progress progress = requests_.poll(transport_);
-    if (progress == Progress::Done) {
+    if (progress == Progress::Done && transport_.out() != Transfer::Pending) {
         take_bytes([](std::uint8_t) { return true; });
         transport_.submit_out(kRateLetter);
         enter(Step::FindingRate, now + kAnswerTime);
         return Progress::Working;
     }
-    return now > deadline_ ? Progress::Failed : progress;
+    return waiting(now, progress);
+}
+
+/// What a list of requests makes of this step.
+Progress Boot::waiting(Instant now, Progress requests) const {
+    return requests == Progress::Failed || now > deadline_ ? Progress::Failed : Progress::Working;
 }
 
 Progress Boot::find_rate(Instant now) {
@@ -134,6 +139,7 @@ void Boot::send_chunk(Instant now) {
 Progress Boot::upload(Instant now) {
     const bool as_sent =
         take_bytes([this](std::uint8_t byte) { return echoed_ < sent_ && byte == image_[echoed_++]; });
+    if (!as_sent) ++wrong_echoes_;
     if (!as_sent || now > deadline_) return Progress::Failed;
     if (echoed_ == image_.size())
         enter(Step::Settling, now + kSettleTime);

@@ -20,6 +20,8 @@ class Boot {
     Progress poll(Instant now);
     /// The upload itself has begun.
     bool uploading() const { return step_ == Step::Uploading || step_ == Step::Settling; }
+    /// Uploads that ended because a byte came back other than it was sent.
+    std::uint64_t wrong_echoes() const { return wrong_echoes_; }
 
   private:
     enum class Step { Configuring, Calling, Switching, FindingRate, Uploading, Settling };
@@ -30,6 +32,7 @@ class Boot {
     Progress find_rate(Instant now);
     Progress upload(Instant now);
     Progress settle(Instant now) const;
+    Progress waiting(Instant now, Progress requests) const;
 
     void enter(Step step, Instant deadline);
     void ask(Instant now);
@@ -47,6 +50,7 @@ class Boot {
     std::size_t matched_ = 0;  // bytes of the PIC's answer seen in a row
     std::size_t sent_ = 0;     // bytes of the image
     std::size_t echoed_ = 0;
+    std::uint64_t wrong_echoes_ = 0;
 };
 
 }  // namespace eddy::falcon

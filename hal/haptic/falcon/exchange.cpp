@@ -12,11 +12,13 @@ constexpr ControlRequest kPurge[] = {purge_receiver(), purge_transmitter()};
 void Exchange::reset() {
     finder_.clear();
     step_ = Step::Free;
-    misses_ = 0;
+    misses_ = timely_ = 0;
+    doubtful_ = false;
 }
 
 std::optional<Reply> Exchange::poll(Instant now) {
     std::optional<Reply> newest;
+    int replies = 0;
     Packet packet;
     while (transport_.take_in(packet)) {
         const Payload payload = strip_status(packet);
@@ -25,15 +27,19 @@ std::optional<Reply> Exchange::poll(Instant now) {
             const auto frame = finder_.push(byte);
             if (!frame) continue;
             newest = decode_reply(*frame);
+            ++replies;
             reply_arrived_at_ = packet.arrived_at;
         }
     }
-    if (newest) {
-        misses_ = 0;
-        if (step_ == Step::Waiting) step_ = Step::Free;
+    if (replies > 0) answered(replies, now);
+    if (step_ == Step::Quiet && now >= deadline_) {
+        step_ = Step::Free;
+        doubtful_ = false;
     }
     if (step_ == Step::Waiting && now >= deadline_) {
         ++misses_;
+        timely_ = 0;
+        doubtful_ = true;
         finder_.clear();
         purge_.start(kPurge);
         step_ = Step::Purging;
@@ -42,6 +48,21 @@ std::optional<Reply> Exchange::poll(Instant now) {
     if (step_ == Step::Purging && (purge_.poll(transport_) != Progress::Working || now >= deadline_))
         step_ = Step::Free;
     return newest;
+}
+
+void Exchange::answered(int replies, Instant now) {
+    misses_ = 0;
+    if (step_ == Step::Purging) return;
+    const int asked_for = step_ == Step::Waiting ? 1 : 0;
+    if (doubtful_ || replies > asked_for) {
+        doubtful_ = true;
+        timely_ = 0;
+        step_ = Step::Quiet;
+        deadline_ = now + kQuietTime;
+    } else {
+        step_ = Step::Free;
+        ++timely_;
+    }
 }
 
 void Exchange::send(const Command& command, Instant now) {

@@ -9,11 +9,19 @@
 namespace eddy::falcon {
 
 /// Commands and replies over the transport: at most one command unanswered. When a reply stays out, the line
-/// is purged and the next command may go; what was on its way is forgotten.
+/// is purged and the next command may go.
+///
+/// Replies carry no number. One that was late rather than lost would pass for the answer to the next command, and
+/// from then on every position would be old without anybody noticing; so would one that came twice. After either, the
+/// line must once be quiet for longer than a reply takes, with nothing unanswered, and forces wait until replies are
+/// on time again.
 class Exchange {
   public:
     /// A reply takes about 1 ms; libnifalcon's users wait 5 to 20.
     static constexpr Instant kReplyTime = std::chrono::milliseconds(10);
+    static constexpr Instant kQuietTime = std::chrono::milliseconds(15);
+    /// So many replies in a row on time make the line trusted.
+    static constexpr int kTimely = 5;
 
     explicit Exchange(Transport& transport) : transport_(transport) {}
 
@@ -23,6 +31,8 @@ class Exchange {
     std::optional<Reply> poll(Instant now);
     /// A command may be sent: nothing is unanswered.
     bool free() const { return step_ == Step::Free && transport_.out() != Transfer::Pending; }
+    /// Replies are on time, so that positions are new.
+    bool trusted() const { return timely_ >= kTimely; }
     /// Only while free().
     void send(const Command& command, Instant now);
 
@@ -34,7 +44,9 @@ class Exchange {
     std::uint64_t line_faults() const { return line_faults_; }
 
   private:
-    enum class Step { Free, Waiting, Purging };
+    enum class Step { Free, Waiting, Purging, Quiet };
+
+    void answered(int replies, Instant now);
 
     Transport& transport_;
     FrameFinder finder_;
@@ -43,6 +55,8 @@ class Exchange {
     Instant deadline_{0};
     Instant reply_arrived_at_{0};
     int misses_ = 0;
+    int timely_ = 0;
+    bool doubtful_ = false;  // a reply stayed out or came unasked: the next one may be an old one
     std::uint64_t line_faults_ = 0;
 };
 

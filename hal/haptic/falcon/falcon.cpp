@@ -34,6 +34,24 @@ constexpr Instant kIdleTime = 3ms;     // Ready but not commanded: zero is sent,
 
 constexpr Instant kForever = Instant::max();
 
+const char* sentence_for(Obstacle obstacle) {
+    switch (obstacle) {
+        case Obstacle::NotFound:
+            return "no Novint Falcon (USB 0403:cb48) found: plug it in";
+        case Obstacle::OtherSerial:
+            return "there is a Novint Falcon (USB 0403:cb48), but not the one with the serial asked for";
+        case Obstacle::Denied:
+            return "there is a Novint Falcon (USB 0403:cb48) that this user may not open: install the udev "
+                   "rule "
+                   "60-eddy-falcon.rules and plug it in again";
+        case Obstacle::Busy:
+            return "there is a Novint Falcon (USB 0403:cb48) that another program uses: end that program";
+        case Obstacle::Unusable:
+            return "there is a Novint Falcon (USB 0403:cb48) that cannot be opened: plug it in again";
+    }
+    return "no Novint Falcon";
+}
+
 }  // namespace
 
 Falcon::Falcon(std::unique_ptr<Transport> transport, FalconSettings settings)
@@ -44,6 +62,14 @@ Falcon::Falcon(std::unique_ptr<Transport> transport, FalconSettings settings)
     if (settings_.firmware_image.empty()) return;
     if (const auto problem = problem_in_firmware(settings_.firmware_image))
         throw std::invalid_argument(*problem);
+}
+
+Falcon::~Falcon() {
+    const bool frames_are_heard = step_ == Step::Homing || step_ == Step::Ready;
+    if (frames_are_heard)
+        transport_->close(encode(Command{}));
+    else
+        transport_->close({});
 }
 
 void Falcon::poll(Instant now) {
@@ -193,12 +219,15 @@ void Falcon::boot() {
 
 void Falcon::boot_failed() {
     loaded_ = false;
-    if (++failed_boots_ >= kMaxBoots)
+    ++counters_.failed_boots;
+    if (++failed_boots_ >= kMaxBoots) {
+        ++counters_.given_up;
         enter(Step::Fault, kFaultTime);
-    else if (settings_.firmware_image.empty())
+    } else if (settings_.firmware_image.empty()) {
         attach();
-    else
+    } else {
         boot();
+    }
 }
 
 void Falcon::become_ready() {
@@ -247,7 +276,7 @@ void Falcon::command(const glm::dvec3& force_n) {
 void Falcon::send_force(const glm::dvec3& force_n) {
     const bool finite = std::isfinite(force_n.x) && std::isfinite(force_n.y) && std::isfinite(force_n.z);
     const auto legs = tracker_.legs(now_);
-    if (!finite || !legs) return send({});
+    if (!finite || !legs || !exchange_.trusted()) return send({});
     const MotorForce force = motors_for(*legs, force_n, settings_.motor_units_per_nm);
     if (force.saturated) ++counters_.saturated;
     send(force.motors);
@@ -286,6 +315,9 @@ HapticState Falcon::state() const {
 HapticCounters Falcon::counters() const {
     HapticCounters counters = counters_;
     counters.bad_bytes = exchange_.dropped_bytes();
+    counters.line_faults = exchange_.line_faults();
+    counters.usb_errors = transport_->failures();
+    counters.wrong_echoes = boot_.wrong_echoes();
     return counters;
 }
 
@@ -295,8 +327,7 @@ Seconds Falcon::silence(Instant now) const {
 }
 
 std::string Falcon::describe() const {
-    if (step_ == Step::Absent)
-        return "no Novint Falcon (USB 0403:cb48): plugged in, and allowed by the udev rule?";
+    if (step_ == Step::Absent) return sentence_for(transport_->obstacle());
     const auto doing = [this]() -> std::string {
         switch (step_) {
             case Step::Attaching:
@@ -310,7 +341,8 @@ std::string Falcon::describe() const {
                 return boot_.uploading() ? "uploading the firmware"
                                          : "calling its boot program; 30 V supply plugged in?";
             case Step::Homing:
-                return "waiting to be homed: pull the handle fully out, then push it fully in";
+                return "waiting to be homed: pull the handle fully out, then push it fully in; if that "
+                       "does not help, plug in its 30 V supply";
             case Step::Ready:
                 return "ready";
             case Step::Fault:

@@ -38,6 +38,10 @@ class Falcon final : public HapticDevice {
   public:
     /// Throws std::invalid_argument if a firmware image is given and is none.
     Falcon(std::unique_ptr<falcon::Transport> transport, FalconSettings settings);
+    /// The last frame it sends asks for no torque and no lamps.
+    ~Falcon() override;
+    Falcon(const Falcon&) = delete;
+    Falcon& operator=(const Falcon&) = delete;
 
     void poll(Instant now) override;
     std::optional<HandleReading> read() override;

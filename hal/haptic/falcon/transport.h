@@ -32,6 +32,15 @@ struct Packet {
 /// What became of the last transfer submitted. Done also before the first one.
 enum class Transfer { Done, Pending, Failed };
 
+/// Why there is no device to talk to.
+enum class Obstacle {
+    NotFound,     ///< no Falcon is plugged in
+    OtherSerial,  ///< there is one, but not the one asked for
+    Denied,       ///< this user may not open it
+    Busy,         ///< another program holds it
+    Unusable,     ///< it can be seen but not opened
+};
+
 /// The USB device with the FTDI chip, between the driver and what is really there. Nothing blocks: transfers
 /// are submitted, and their outcome is asked for at later polls. One transfer in each direction is under way
 /// at a time; bulk IN is always asked for in the background. One thread calls everything; nothing allocates.
@@ -46,6 +55,10 @@ class Transport {
     virtual bool present() const = 0;
     /// The device's serial string; empty while absent.
     virtual std::string_view serial() const = 0;
+    /// While not present: why.
+    virtual Obstacle obstacle() const = 0;
+    /// Transfers that went wrong since the start; those cut short by unplugging or close() do not count.
+    virtual std::uint64_t failures() const = 0;
 
     /// Only while control() is not Pending.
     virtual void submit_control(const ControlRequest& request) = 0;
@@ -57,6 +70,10 @@ class Transport {
 
     /// Takes the oldest packet that has come in; false if there is none.
     virtual bool take_in(Packet& packet) = 0;
+
+    /// The last call: sends these bytes after what is under way, waits for them and for nothing else, a tenth
+    /// of a second at most, and lets the device go.
+    virtual void close(std::span<const std::uint8_t> last_words) = 0;
 };
 
 /// How a job of several polls stands.

@@ -36,8 +36,8 @@ TEST(FalconFaults, SendsZeroWithin20msOfALostReply) {
     int zero_after = ms;
     while (rig.board().last_command().motors != Axes{} && ++zero_after < 50) rig.tick(force);
     EXPECT_LT(zero_after, 20);
-    rig.run(5, force);
-    EXPECT_NE(rig.board().last_command().motors, Axes{}) << "the zero was answered: forces are obeyed again";
+    rig.run(30, force);
+    EXPECT_NE(rig.board().last_command().motors, Axes{}) << "replies are on time: forces are obeyed again";
     EXPECT_EQ(rig.driver->state(), HapticState::Ready);
     EXPECT_EQ(rig.driver->counters().timeouts, 1U);
 }

@@ -1,0 +1,84 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "hal/haptic/falcon/falcon.h"
+#include "hal/haptic/falcon/usb_link.h"
+#include "tests/hal/haptic/falcon/rig.h"
+#include "tests/usb/bus.h"
+
+namespace eddy {
+
+/// The driver above the real libusb above an emulated Falcon on an emulated bus, all on virtual time: what Rig is
+/// without USB between. The device outlives the driver.
+struct UsbRig {
+    explicit UsbRig(emulated::BoardSettings board = {}, FalconSettings driver_settings = {},
+                    std::unique_ptr<emulated::HandMotion> motion = still(),
+                    emulated::PlantSettings plant = {.hand = emulated::Hand::OnPath})
+        : UsbRig(NoDevice{}) {
+        settings = std::move(driver_settings);
+        port = &add(board, {}, std::move(motion), plant);
+        start();
+    }
+
+    /// A bus without anything, and no driver yet.
+    struct NoDevice {};
+    explicit UsbRig(NoDevice) {
+        bus().clear();
+        now = bus().now();
+    }
+    ~UsbRig() {
+        driver.reset();
+        bus().clear();
+    }
+    UsbRig(const UsbRig&) = delete;
+    UsbRig& operator=(const UsbRig&) = delete;
+
+    static usb::Bus& bus() { return usb::Bus::instance(); }
+    static usb::Port& add(emulated::BoardSettings board = {}, emulated::UsbIdentity identity = {},
+                          std::unique_ptr<emulated::HandMotion> motion = still(),
+                          emulated::PlantSettings plant = {.hand = emulated::Hand::OnPath}) {
+        return bus().plug(std::make_unique<emulated::EmulatedFalcon>(std::move(motion), plant, board),
+                          std::move(identity));
+    }
+    void start(const std::string& serial = {}) {
+        driver = std::make_unique<Falcon>(std::make_unique<falcon::UsbLink>(serial), settings);
+    }
+
+    void tick(const glm::dvec3& force_n = glm::dvec3(0.0)) {
+        now += std::chrono::milliseconds(1);
+        {
+            const usb::InKernel kernel;
+            bus().advance(now);
+        }
+        driver->poll(now);
+        if (const auto reading = driver->read()) {
+            last = *reading;
+            ++readings;
+        }
+        driver->command(force_n);
+    }
+    void run(int ms, const glm::dvec3& force_n = glm::dvec3(0.0)) {
+        for (int i = 0; i < ms; ++i) tick(force_n);
+    }
+    /// Milliseconds until the driver is in this state; -1 if it does not get there in time.
+    int until(HapticState state, int at_most_ms, const glm::dvec3& force_n = glm::dvec3(0.0)) {
+        for (int ms = 0; ms <= at_most_ms; ++ms) {
+            if (driver->state() == state) return ms;
+            tick(force_n);
+        }
+        return -1;
+    }
+    emulated::EmulatedFalcon& device() { return port->device.falcon(); }
+    emulated::EmulatedBoard& board() { return device().board(); }
+
+    FalconSettings settings;
+    Instant now{0};
+    usb::Port* port = nullptr;
+    std::unique_ptr<Falcon> driver;
+    HandleReading last;
+    int readings = 0;
+};
+
+}  // namespace eddy
