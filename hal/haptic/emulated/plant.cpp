@@ -9,6 +9,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Instant kStep = 250us;     // far below the fastest time constant here, m/b = 110 ms
+constexpr double kGravity = 9.81;    // [m/s2]
 constexpr Instant kLongestGap = 1s;  // after a longer one the handle starts afresh instead of catching up
 
 // Stops: +-60 mm across, z 65..178 mm from the base (libnifalcon's HDAL layer reports 75..175; the legs end
@@ -57,13 +58,20 @@ void Plant::step(double dt, const glm::dvec3& force_n) {
     const glm::dvec3 target_velocity =
         (target - motion_->position_m(now - Seconds(kStep))) / Seconds(kStep).count();
 
-    // (m_handle + m_arm) a = F_motors + k (target - x) + b_arm (target' - v) - b_handle v, the dampers
-    // implicitly.
-    const double mass = settings_.handle_mass_kg + settings_.arm_mass_kg;
-    const double damping = settings_.handle_damping_ns_m + settings_.arm_damping_ns_m;
-    const glm::dvec3 push = force_n + settings_.arm_stiffness_n_m * (target - position_) +
-                            settings_.arm_damping_ns_m * target_velocity;
+    // (m_handle + m_arm + m_hung) a = F_motors + k (target - x) + b_arm (target' - v) - b_handle v + m_hung g, the
+    // dampers implicitly. Without a hand there is no arm.
+    const double held = settings_.hand == Hand::None ? 0.0 : 1.0;
+    const double mass = settings_.handle_mass_kg + held * settings_.arm_mass_kg + hung_kg_;
+    const double damping = settings_.handle_damping_ns_m + held * settings_.arm_damping_ns_m;
+    const glm::dvec3 push = force_n + glm::dvec3(0.0, -kGravity * hung_kg_, 0.0) +
+                            held * settings_.arm_stiffness_n_m * (target - position_) +
+                            held * settings_.arm_damping_ns_m * target_velocity;
     velocity_ = (velocity_ + dt / mass * push) / (1.0 + dt / mass * damping);
+
+    // Dry friction takes away so much speed, and stops what is slower.
+    const double speed = glm::length(velocity_);
+    const double rubbed = dt / mass * settings_.handle_friction_n;
+    if (rubbed > 0.0) velocity_ *= speed > rubbed ? 1.0 - rubbed / speed : 0.0;
 
     const glm::dvec3 wanted = position_ + dt * velocity_;
     place(wanted);

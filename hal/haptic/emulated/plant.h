@@ -9,6 +9,7 @@ namespace eddy::emulated {
 enum class Hand {
     OnPath,  ///< the hand is stronger than any motor: the handle is where the motion says, as far as the
              ///< stops allow
+    None,    ///< nobody holds it
     Arm,  ///< an arm holds the handle and is pulled towards the motion by a spring and a damper; it feels the
           ///< motors
 };
@@ -19,6 +20,7 @@ struct PlantSettings {
     // ZhuoxuanCao/Novint-Falcon-Haptic-Feedback-and-3D-Simulation, Report.pdf.
     double handle_mass_kg = 0.459;
     double handle_damping_ns_m = 2.8;
+    double handle_friction_n = 0.0;  ///< dry: the same at every speed
     // A person's arm: one measured trial in van Beek et al. 2015, Scientific Reports 5:18004.
     double arm_mass_kg = 0.554;
     double arm_damping_ns_m = 6.45;
@@ -29,6 +31,9 @@ struct PlantSettings {
 class Plant {
   public:
     Plant(std::unique_ptr<HandMotion> motion, const PlantSettings& settings);
+
+    /// Hangs so much on the handle, in place of what hung there: more to move, and its weight pulls down.
+    void hang(double mass_kg) { hung_kg_ = mass_kg; }
 
     /// Puts the handle, at rest, where the hand wants to be at this time.
     void start(Instant at);
@@ -47,6 +52,7 @@ class Plant {
 
     std::unique_ptr<HandMotion> motion_;
     PlantSettings settings_;
+    double hung_kg_ = 0.0;
     Instant time_{0};
     glm::dvec3 position_{0.0};  // [m]
     glm::dvec3 velocity_{0.0};  // [m/s]
