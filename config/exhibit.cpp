@@ -12,6 +12,22 @@ namespace eddy {
 extern const std::span<const EmbeddedFile> kExhibitFiles;
 
 template <class Visitor>
+void describe(Visitor& v, FalconConfig& f) {
+    v.value("firmware", f.firmware,
+            "path of Novint's firmware image, with which a Falcon is loaded after each time it was without "
+            "power; "
+            "empty: only one that runs already can be used");
+    v.value("serial", f.serial, "serial string of the one to use; empty: the first that is found");
+    v.value("motor_units_per_nm", f.motor_units_per_nm,
+            "motor value for a newton metre at the arm: what eddy falcon calibrate finds",
+            between(1000, 100000));
+    v.value("keep_homing_bit", f.keep_homing_bit,
+            "go on asking for the homed bits, so that lost homing is noticed");
+    v.value("event_character", f.event_character,
+            "its USB chip sends each reply at its last byte instead of at the next beat of its 1 ms timer");
+}
+
+template <class Visitor>
 void describe(Visitor& v, Exhibit& e) {
     v.value("scene", e.scene, "a shipped scene by name, or the path of a scene file");
     v.value("display", e.display, "where the picture goes");
@@ -26,6 +42,7 @@ void describe(Visitor& v, Exhibit& e) {
     v.value("state_dir", e.state_dir, "what outlives a restart: calibration, tuning, flight recordings");
     v.value("run_dir", e.run_dir, "what lives as long as the program: status");
     v.value("max_force_n", e.max_force_n, "no scene makes the hand feel more", between(0, 8));
+    v.table("falcon", e.falcon, "The Novint Falcon.");
 }
 
 namespace {
@@ -40,12 +57,14 @@ void check(const Exhibit& exhibit, Findings& findings) {
     if (exhibit.preset_s > 0.0 && exhibit.presets.size() < 2)
         findings.blame(place_of(findings.origins, "preset_s"), "preset_s",
                        "there are no presets that could change; presets must name two or more");
-    for (const auto& [key, path] :
-         {std::pair("state_dir", exhibit.state_dir), std::pair("run_dir", exhibit.run_dir)}) {
+    const auto require_absolute = [&findings](const char* key, const std::filesystem::path& path) {
         if (!path.is_absolute())
             findings.blame(place_of(findings.origins, key), key,
                            in_quotes(path.string()) + " must start with a slash");
-    }
+    };
+    require_absolute("state_dir", exhibit.state_dir);
+    require_absolute("run_dir", exhibit.run_dir);
+    if (!exhibit.falcon.firmware.empty()) require_absolute("falcon.firmware", exhibit.falcon.firmware);
 }
 
 // The files of a configuration folder, in the order in which they apply.

@@ -39,6 +39,16 @@ constexpr std::span<const Word<OverlayChoice>> words_of(OverlayChoice) {
     return kOverlayChoices;
 }
 
+/// The Novint Falcon of this machine, and what its public sources leave open.
+struct FalconConfig {
+    std::string firmware{};  ///< path of the image that a cold device is loaded with
+    std::string serial{};
+    double motor_units_per_nm = 10000.0;
+    bool keep_homing_bit = true;
+    bool event_character = true;
+    bool operator==(const FalconConfig&) const = default;
+};
+
 /// What an exhibit machine is set to. exhibit.cpp has each key's meaning and range, exhibit.toml its value.
 struct Exhibit {
     std::string scene = "jet";  ///< as load_scene() takes it
@@ -50,6 +60,7 @@ struct Exhibit {
     std::filesystem::path state_dir = "/var/lib/eddy";
     std::filesystem::path run_dir = "/run/eddy";
     double max_force_n = 4.0;
+    FalconConfig falcon{};
     bool operator==(const Exhibit&) const = default;
 };
 

@@ -79,6 +79,19 @@ TEST_F(ExhibitFolder, FoldersMustBeAbsolute) {
                 ElementsAre(file + ":1:13: state_dir: \"state\" must start with a slash"));
 }
 
+TEST_F(ExhibitFolder, FalconIsSetInATableOfItsOwn) {
+    const std::string file =
+        write("exhibit.toml", "[falcon]\nfirmware = \"/etc/eddy/falcon.bin\"\nserial = \"FTPNM0FB\"\n");
+    const FalconConfig falcon = load_exhibit_file(file).exhibit.falcon;
+    EXPECT_EQ(falcon.firmware, "/etc/eddy/falcon.bin");
+    EXPECT_EQ(falcon.serial, "FTPNM0FB");
+    EXPECT_EQ(falcon.motor_units_per_nm, 10000.0);
+    write("exhibit.toml", "[falcon]\nfirmware = \"falcon.bin\"\nmotor_units_per_nm = 10\n");
+    EXPECT_THAT(complaints([&] { load_exhibit_file(file); }),
+                ElementsAre(HasSubstr("falcon.firmware: \"falcon.bin\" must start with a slash"),
+                            HasSubstr("falcon.motor_units_per_nm: 10 is out of range")));
+}
+
 TEST_F(ExhibitFolder, PresetsThatChangeByThemselvesMustBeNamed) {
     for (const std::string presets : {"", "presets = [\"fast\"]\n"}) {
         const std::string file = write("exhibit.toml", "preset_s = 30\n" + presets);
