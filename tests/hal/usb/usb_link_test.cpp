@@ -15,7 +15,7 @@ using namespace falcon;
 
 TEST(UsbLink, FindsTheFalconAndReadsItsSerialString) {
     UsbRig rig{UsbRig::NoDevice{}};
-    rig.port = &rig.add({}, {.serial = "FTPNM0FB"});
+    rig.port = rig.add({}, {.serial = "FTPNM0FB"});
     rig.start();
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     EXPECT_THAT(rig.driver->describe(), HasSubstr("FTPNM0FB"));
@@ -25,34 +25,34 @@ TEST(UsbLink, FindsTheFalconAndReadsItsSerialString) {
 
 TEST(UsbLink, NeverOpensAnotherDeviceWithAnFtdiChip) {
     UsbRig rig{UsbRig::NoDevice{}};
-    const usb::Port& other =
+    const usb::Port* other =
         rig.add({}, {.product = 0x6001, .product_name = "FT232R USB UART", .serial = "A1"});
     rig.start();
     EXPECT_FALSE(falcon_is_plugged_in());
     rig.run(1000);
     EXPECT_EQ(rig.driver->state(), HapticState::Absent);
     EXPECT_THAT(rig.driver->describe(), HasSubstr("plug it in"));
-    rig.port = &rig.add();
+    rig.port = rig.add();
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     EXPECT_TRUE(falcon_is_plugged_in());
-    EXPECT_EQ(other.opened, 0);
+    EXPECT_EQ(other->opened, 0);
 }
 
 TEST(UsbLink, TakesTheFalconWithTheSerialAskedFor) {
     UsbRig rig{UsbRig::NoDevice{}};
-    const usb::Port& first = rig.add({}, {.serial = "12PZ657E"});
-    rig.port = &rig.add({}, {.serial = "FTPNM0FB"});
-    const usb::Port& third = rig.add({}, {.serial = "FTPNM0FC"});
+    const usb::Port* first = rig.add({}, {.serial = "12PZ657E"});
+    rig.port = rig.add({}, {.serial = "FTPNM0FB"});
+    const usb::Port* third = rig.add({}, {.serial = "FTPNM0FC"});
     rig.start("FTPNM0FB");
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     EXPECT_THAT(rig.driver->describe(), HasSubstr("FTPNM0FB"));
     EXPECT_EQ(rig.port->claimed, 1);
-    EXPECT_EQ(first.claimed + third.claimed, 0) << "those were asked for their names and left alone";
+    EXPECT_EQ(first->claimed + third->claimed, 0) << "those were asked for their names and left alone";
 }
 
 TEST(UsbLink, SaysThatOnlyAnotherSerialIsThere) {
     UsbRig rig{UsbRig::NoDevice{}};
-    rig.port = &rig.add({}, {.serial = "12PZ657E"});
+    rig.port = rig.add({}, {.serial = "12PZ657E"});
     rig.start("FTPNM0FB");
     rig.run(1000);
     EXPECT_EQ(rig.driver->state(), HapticState::Absent);
@@ -90,9 +90,9 @@ TEST(UsbLink, TakesItFromADriverOfTheKernel) {
 
 TEST(UsbLink, TakesTheOtherFalconWhileOneIsInUse) {
     UsbRig rig{UsbRig::NoDevice{}};
-    usb::Port& first = rig.add({}, {.serial = "12PZ657E"});
-    first.claimed_by_another = true;
-    rig.port = &rig.add({}, {.serial = "FTPNM0FB"});
+    usb::Port* first = rig.add({}, {.serial = "12PZ657E"});
+    first->claimed_by_another = true;
+    rig.port = rig.add({}, {.serial = "FTPNM0FB"});
     rig.start();
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     EXPECT_EQ(rig.port->claimed, 1);

@@ -18,7 +18,7 @@ struct UsbRig {
                     emulated::PlantSettings plant = {.hand = emulated::Hand::OnPath})
         : UsbRig(NoDevice{}) {
         settings = std::move(driver_settings);
-        port = &add(board, {}, std::move(motion), plant);
+        port = add(board, {}, std::move(motion), plant);
         start();
     }
 
@@ -36,11 +36,11 @@ struct UsbRig {
     UsbRig& operator=(const UsbRig&) = delete;
 
     static usb::Bus& bus() { return usb::Bus::instance(); }
-    static usb::Port& add(emulated::BoardSettings board = {}, emulated::UsbIdentity identity = {},
+    static usb::Port* add(emulated::BoardSettings board = {}, emulated::UsbIdentity identity = {},
                           std::unique_ptr<emulated::HandMotion> motion = still(),
                           emulated::PlantSettings plant = {.hand = emulated::Hand::OnPath}) {
-        return bus().plug(std::make_unique<emulated::EmulatedFalcon>(std::move(motion), plant, board),
-                          std::move(identity));
+        return &bus().plug(std::make_unique<emulated::EmulatedFalcon>(std::move(motion), plant, board),
+                           std::move(identity));
     }
     void start(const std::string& serial = {}) {
         driver = std::make_unique<Falcon>(std::make_unique<falcon::UsbLink>(serial), settings);
