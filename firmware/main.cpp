@@ -57,6 +57,8 @@ struct CommandLine {
     TuneOptions tune;
     AccuracyOptions accuracy;
     StabilityOptions stability;
+    FalconOptions falcon;
+    CLI::App* calibrate = nullptr;
     std::string check_file, print_scene;
     std::vector<std::string> print_set;
     bool print_origin = false, print_keys = false;
@@ -77,6 +79,7 @@ struct CommandLine {
         add_accuracy();
         add_stability();
         add_tune();
+        add_falcon();
         auto* check =
             app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
         check->add_option("FILE", check_file, "the file to check")->required();
@@ -100,8 +103,8 @@ struct CommandLine {
     void add_run() {
         auto* verb = app.add_subcommand(
             "run",
-            "The exhibit: fluid, picture and force. Without options: an emulated hand that moves\n"
-            "like a person's, and no screen (this version drives neither a screen nor a real Falcon)");
+            "The exhibit: fluid, picture and force. Without options: the Novint Falcon if one is plugged\n"
+            "in, else an emulated hand that moves like a person's; and no screen (this version drives none)");
         verb->option_defaults()->take_last();  // script/run gives defaults that the user's options follow
         verb->add_option("--scene", run.scene, "shipped scene or file (print-config lists all keys)");
         add_set(*verb, run.set);
@@ -152,6 +155,27 @@ struct CommandLine {
         verb->add_option("--state-dir", tune.state_dir,
                          "folder for the result, as tuning-jet.json [that of the exhibit]");
         verb->add_flag("--show", tune.show, "print what is kept there of this scene, and stop");
+    }
+
+    void add_falcon() {
+        auto* verb = app.add_subcommand(
+            "falcon",
+            "Find the Novint Falcon, start it, and say how it is: state, rate, handle, buttons, troubles.\n"
+            "No force. falcon calibrate finds its force scale with a known weight");
+        verb->option_defaults()->take_last();
+        verb->add_option("--firmware", falcon.firmware,
+                         "firmware image for a cold device [falcon.firmware of the exhibit]");
+        verb->add_option("--serial", falcon.serial, "the one with this serial string [falcon.serial]");
+        verb->add_option("--seconds", falcon.seconds, "how long to look at it")
+            ->check(number_from(0.1, 86400.0))
+            ->capture_default_str();
+        calibrate = verb->add_subcommand(
+            "calibrate",
+            "The motors hold the handle, empty and with a weight; prints falcon.motor_units_per_nm for\n"
+            "/etc/eddy/conf.d. The Falcon stands upright and nobody touches the handle; a minute");
+        calibrate->add_option("--weight-g", falcon.weight_g, "mass of the weight")
+            ->check(number_from(20.0, 400.0))
+            ->capture_default_str();
     }
 
     void add_simulate() {
@@ -359,6 +383,8 @@ struct CommandLine {
         if (app.got_subcommand("accuracy")) return act_on_accuracy();
         if (app.got_subcommand("stability")) return act_on_stability();
         if (app.got_subcommand("tune")) return eddy::tune(tune);
+        if (app.got_subcommand("falcon"))
+            return calibrate->parsed() ? calibrate_falcon(falcon) : diagnose_falcon(falcon);
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);
     }

@@ -79,7 +79,12 @@ bool write_status(const std::filesystem::path& file, const Status& s) {
                     {"unsolved", c.unsolved},
                     {"saturated", c.saturated},
                     {"rehomed", c.rehomed},
-                    {"lost", c.lost}};
+                    {"lost", c.lost},
+                    {"line_faults", c.line_faults},
+                    {"usb_errors", c.usb_errors},
+                    {"failed_boots", c.failed_boots},
+                    {"wrong_echoes", c.wrong_echoes},
+                    {"given_up", c.given_up}};
     try {
         replace_text_file(file, j.dump(2) + "\n");
         return true;

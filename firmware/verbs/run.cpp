@@ -97,12 +97,12 @@ QualityControl::Setup quality_setup(const RunOptions& options, const Exhibit& ex
 /// Everything one run holds, wired together.
 class Run {
   public:
-    Run(const RunOptions& options, const Exhibit& exhibit, const Scene& scene,
-        std::unique_ptr<HapticDevice> device, std::unique_ptr<Graphics> graphics)
+    Run(const RunOptions& options, const Exhibit& exhibit, const Scene& scene, RunDevice device,
+        std::unique_ptr<Graphics> graphics)
         : options_(options),
           scene_(scene),
-          device_(std::move(device)),
-          device_name_(device_ ? "Novint Falcon, emulated" : "none"),
+          device_(std::move(device.device)),
+          device_name_(std::move(device.name)),
           graphics_(std::move(graphics)),
           quality_(graphics_->gpu, scene, quality_setup(options, exhibit, scene)),
           show_(graphics_->gpu, scene, exchange_, quality_.first()),
@@ -470,7 +470,7 @@ int run(const RunOptions& options) {
     }
     require_no_screen(options.display.value_or(exhibit.display));
     BodySchedule{scene};  // reads the paths
-    std::unique_ptr<HapticDevice> device = make_device(options, options.haptics.value_or(exhibit.haptics));
+    RunDevice device = make_device(options, exhibit);
     if (!options.record.empty()) prepare_folder("--record", options.record);
     if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);
     if (!options.state_dir.empty()) prepare_folder("--state-dir", options.state_dir);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "firmware/text_file.h"
+#include "firmware/verbs/real_falcon.h"
 #include "hal/haptic/emulated/make_emulated_falcon.h"
 #include "hal/haptic/emulated/person_motion.h"
 #include "hal/haptic/emulated/recorded_motion.h"
+#include "hal/haptic/falcon/usb_link.h"
 
 namespace eddy {
 namespace {
@@ -20,14 +22,24 @@ emulated::AxisMap axes_of(const RunOptions& options) {
 
 }  // namespace
 
-std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoice choice) {
+RunDevice make_device(const RunOptions& options, const Exhibit& exhibit) {
+    HapticsChoice choice = options.haptics.value_or(exhibit.haptics);
     if (choice == HapticsChoice::None && !options.motion.empty())
         throw InputError("--motion: there is no hand to move; leave out --haptics none");
     const emulated::AxisMap axes = axes_of(options);
-    if (choice == HapticsChoice::None) return nullptr;
-    if (choice == HapticsChoice::Falcon)
-        throw InputError(
-            "--haptics falcon: this version cannot drive a real Falcon yet; use emulated, or auto");
+    if (choice == HapticsChoice::None) return {nullptr, "none"};
+    const bool can_be_real = options.clock == ClockChoice::Real && options.motion.empty();
+    if (choice == HapticsChoice::Auto)
+        choice =
+            can_be_real && falcon::falcon_is_plugged_in() ? HapticsChoice::Falcon : HapticsChoice::Emulated;
+    if (choice == HapticsChoice::Falcon) {
+        if (!can_be_real)
+            throw InputError(
+                "--haptics falcon: a real hand follows no recording and no virtual time; leave out --motion "
+                "and "
+                "--clock stepped, or use --haptics emulated");
+        return {make_real_falcon(exhibit.falcon), "Novint Falcon"};
+    }
     emulated::EmulatedFalconSettings settings;
     std::unique_ptr<emulated::HandMotion> motion;
     if (options.motion.empty()) {
@@ -43,7 +55,7 @@ std::unique_ptr<HapticDevice> make_device(const RunOptions& options, HapticsChoi
             throw InputError(fmt::format("--motion: {}", e.what()));
         }
     }
-    return emulated::make_emulated_falcon(std::move(motion), settings);
+    return {emulated::make_emulated_falcon(std::move(motion), settings), "Novint Falcon, emulated"};
 }
 
 }  // namespace eddy

@@ -110,6 +110,17 @@ struct TuneOptions {
 /// 1 too if not even the cheapest setting keeps the rate.
 int tune(const TuneOptions& options);
 
+struct FalconOptions {
+    std::optional<std::string> firmware;  ///< in place of the exhibit's
+    std::optional<std::string> serial;
+    double seconds = 5.0;     ///< how long to look at it once it is found and loaded
+    double weight_g = 100.0;  ///< of a calibration
+};
+/// 1 too if no Falcon was ready or homing in the end.
+int diagnose_falcon(const FalconOptions& options);
+/// 1 too if it did not succeed.
+int calibrate_falcon(const FalconOptions& options);
+
 int check_config(const std::string& file);
 int print_config(const std::string& scene, const std::vector<std::string>& set, bool origin);
 /// The reference of scene files as markdown (docs/scene.md).

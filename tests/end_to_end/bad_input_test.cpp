@@ -150,7 +150,9 @@ TEST_F(BadInput, AboutDestinationsIsNamedBeforeAnyWork) {
 
 TEST_F(BadInput, ThatThisVersionCannotDoIsSaidSo) {
     expect_refused({"run", "--display", "kms", "--record", out}, {"--display kms"});
-    expect_refused({"run", "--haptics", "falcon", "--record", out}, {"--haptics falcon"});
+    expect_refused({"run", "--haptics", "falcon", "--clock", "stepped", "--seconds", "1", "--record", out},
+                   {"--haptics falcon", "--clock stepped"});
+    expect_refused({"falcon", "--firmware", scene}, {"falcon.firmware", scene, "AA 08"});
 }
 
 TEST_F(BadInput, ToCheckConfigIsToldFromGoodInput) {

@@ -22,6 +22,7 @@ const std::vector<Verb> kVerbs{
      {"--validate", "--list", "--case", "--full", "--grid", "--set", "--json", "--csv", "--sweep", "--shard",
       "--merge", "--out"}},
     {"tune", {"SCENE", "--scene", "--set", "--state-dir", "--show"}},
+    {"falcon", {"--firmware", "--serial", "--seconds", "calibrate"}},
     {"check-config", {"FILE"}},
     {"print-config", {"SCENE", "--set", "--origin"}},
 };

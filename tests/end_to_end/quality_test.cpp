@@ -44,9 +44,9 @@ TEST(Tune, KeepsItsChoiceWithTheEvidenceAndTheExhibitBeginsWithIt) {
     EXPECT_THAT(tuned.out, HasSubstr("> fast "));
     EXPECT_EQ(eddy({"tune", "stir", "--show", "--state-dir", state.path()}).status, 0);
 
-    const Ended ran = eddy(with(
-        {"run", "--scene", "stir", "--seconds", "1", "--state-dir", state.path(), "--run-dir", run.path()},
-        quick));
+    const Ended ran = eddy(with({"run", "--haptics", "emulated", "--scene", "stir", "--seconds", "1",
+                                 "--state-dir", state.path(), "--run-dir", run.path()},
+                                quick));
     ASSERT_EQ(ran.status, 0) << ran.err;
     const nlohmann::json cost = read_json(run / "status.json")["cost"];
     if (cost["quality_down"] == 0) {  // it may have been busy
@@ -61,8 +61,9 @@ TEST(Tune, MakesTheFolderItKeepsItsResultInAsRunDoes) {
     const Ended tuned = eddy(with({"tune", "stir", "--state-dir", folder / "a/b"}, quickest));
     EXPECT_LE(tuned.status, 1) << tuned.err;
     EXPECT_TRUE(std::filesystem::exists(folder / "a/b/tuning-stir.json")) << tuned.err;
-    const Ended ran =
-        eddy(with({"run", "--scene", "stir", "--seconds", "0.1", "--state-dir", folder / "c/d"}, kSmall));
+    const Ended ran = eddy(with({"run", "--haptics", "emulated", "--scene", "stir", "--seconds", "0.1",
+                                 "--state-dir", folder / "c/d"},
+                                kSmall));
     EXPECT_EQ(ran.status, 0) << ran.err;
     EXPECT_TRUE(std::filesystem::is_directory(folder / "c/d"));
 }
@@ -94,9 +95,9 @@ TEST(Tune, ShowsWhatIsWrongWithAForeignFile) {
 TEST(Run, WithAForeignTuningSaysSoAndGoesOnWithTheSceneAsItIs) {
     const ScratchFolder state, run;
     state.write("tuning-stir.json", "half a fi");
-    const Ended ended = eddy(with(
-        {"run", "--scene", "stir", "--seconds", "1", "--state-dir", state.path(), "--run-dir", run.path()},
-        kSmall));
+    const Ended ended = eddy(with({"run", "--haptics", "emulated", "--scene", "stir", "--seconds", "1",
+                                   "--state-dir", state.path(), "--run-dir", run.path()},
+                                  kSmall));
     ASSERT_EQ(ended.status, 0) << ended.err;
     const nlohmann::json cost = read_json(run / "status.json")["cost"];
     EXPECT_EQ(cost["cells"][0], 16);
@@ -117,7 +118,8 @@ TEST(Run, PresetsChangeByThemselvesWhileItGoesOn) {
 }
 
 TEST(Run, RefusesAPresetThatCannotDoTheScene) {
-    const Ended ended = eddy({"run", "--scene", "float", "--seconds", "1", "--presets", "fast,yang2009"});
+    const Ended ended = eddy(
+        {"run", "--haptics", "emulated", "--scene", "float", "--seconds", "1", "--presets", "fast,yang2009"});
     EXPECT_EQ(ended.status, 2);
     EXPECT_THAT(ended.err, HasSubstr("is not in the method of Yang et al. 2009"));
 }
