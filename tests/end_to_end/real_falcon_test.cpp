@@ -51,7 +51,7 @@ class RealFalcon : public testing::Test {
 };
 
 TEST_F(RealFalcon, IsFoundStartedFromColdAndDescribed) {
-    const Ended ended = eddy_with("cold", {"falcon", "--firmware", firmware(), "--seconds", "6"});
+    const Ended ended = eddy_with("cold", {"falcon", "--firmware", firmware(), "--seconds", "3"});
     EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("state        ready"));
     EXPECT_THAT(ended.out, HasSubstr("Novint Falcon EMUL0001: ready"));
@@ -80,7 +80,7 @@ TEST_F(RealFalcon, MovesTheBodyOfTheExhibitWhenItIsPluggedIn) {
 }
 
 TEST_F(RealFalcon, MayBeUnpluggedWhileTheShowRuns) {
-    const Ended ended = eddy_with("warm", short_run({"--haptics", "falcon", "--seconds", "4"}), "1.0-1.5");
+    const Ended ended = eddy_with("warm", short_run({"--haptics", "falcon", "--seconds", "3"}), "1.0-1.3");
     ASSERT_EQ(ended.status, 0) << ended.err;
     const auto haptics = status()["haptics"];
     EXPECT_EQ(haptics["state"], "ready");

@@ -54,6 +54,8 @@ int status_of(Urb::Status status) {
             return -EPIPE;
         case Urb::Status::Overflowed:
             return -EOVERFLOW;
+        case Urb::Status::Garbled:
+            return -EPROTO;
         case Urb::Status::Cancelled:
             return -ENOENT;
         case Urb::Status::Gone:

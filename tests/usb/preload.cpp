@@ -16,7 +16,7 @@ namespace {
 /// A hand that moves in and out all the time, and so homes the device when it wants to be homed.
 class InAndOut final : public emulated::HandMotion {
   public:
-    glm::dvec3 position_m(Seconds t) const override { return {0.0, 0.0, 0.047 * std::sin(2.0 * t.count())}; }
+    glm::dvec3 position_m(Seconds t) const override { return {0.0, 0.0, 0.047 * std::sin(6.0 * t.count())}; }
 };
 
 emulated::BoardState start_from(std::string_view word) {

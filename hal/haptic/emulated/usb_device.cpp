@@ -65,7 +65,8 @@ void UsbDevice::poll(Instant now) {
     for (const Urb& urb : in_) room += (urb.buffer.size() - urb.actual + kPacket - 1) / kPacket;
     falcon_->set_room(room);
     falcon_->poll(now);
-    if (!plugged_in_) return;
+    if (!plugged_in_ || hung) return;
+    if (garbled) return end_all(Urb::Status::Garbled);
     serve_control(now);
     serve_out();
     serve_in();
@@ -105,14 +106,18 @@ std::optional<Urb> UsbDevice::reap() {
 void UsbDevice::unplug() {
     plugged_in_ = false;
     falcon_->unplug();
-    control_begun_ = out_begun_ = false;
-    for (auto* queue : {&control_, &in_, &out_})
-        while (!queue->empty()) end(*queue, Urb::Status::Gone);
+    end_all(Urb::Status::Gone);
 }
 
 void UsbDevice::plug_in(bool kept_power) {
     plugged_in_ = true;
     falcon_->plug_in(kept_power);
+}
+
+void UsbDevice::end_all(Urb::Status status) {
+    control_begun_ = out_begun_ = false;
+    for (auto* queue : {&control_, &in_, &out_})
+        while (!queue->empty()) end(*queue, status);
 }
 
 void UsbDevice::end(std::deque<Urb>& queue, Urb::Status status) {

@@ -21,7 +21,7 @@ struct UsbIdentity {
 /// A request as an operating system hands it to a host controller.
 struct Urb {
     enum class Pipe { Control, In, Out };
-    enum class Status { Pending, Done, Stalled, Overflowed, Cancelled, Gone };
+    enum class Status { Pending, Done, Stalled, Overflowed, Garbled, Cancelled, Gone };
 
     const void* id = nullptr;  ///< the host's name for it
     Pipe pipe = Pipe::Control;
@@ -54,11 +54,15 @@ class UsbDevice {
     void unplug();
     void plug_in(bool kept_power);
 
+    bool garbled = false;  ///< a bad cable: every request ends in error at once
+    bool hung = false;     ///< the device accepts nothing and says nothing: no request ends
+
     EmulatedFalcon& falcon() { return *falcon_; }
     const UsbIdentity& identity() const { return identity_; }
 
   private:
     void end(std::deque<Urb>& queue, Urb::Status status);
+    void end_all(Urb::Status status);
     void serve_control(Instant now);
     void begin_control(Urb& urb, Instant now);
     void serve_out();

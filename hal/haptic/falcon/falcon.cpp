@@ -28,7 +28,7 @@ constexpr Instant kProbeTime = 200ms;  // about fifteen unanswered frames; a run
 constexpr Instant kBootTime = 10s;     // radarsat1/dimple issue 4 found less to be too short
 constexpr int kMaxBoots = 10;          // as libnifalcon's command line, vrpn and HAPI
 constexpr Instant kFaultTime = 5s;     // until the next try; somebody may have plugged in the power supply
-constexpr int kLostAfter = 100;        // unanswered commands in a row (gborghesan/novint_falcon)
+constexpr Instant kLostTime = 1200ms;  // of silence: a hundred unanswered commands (gborghesan/novint_falcon)
 constexpr Instant kHomedTime = 500ms;  // encoders jump when an axis finds its index: no force until they rest
 constexpr Instant kIdleTime = 3ms;     // Ready but not commanded: zero is sent, so that positions keep coming
 
@@ -91,7 +91,7 @@ void Falcon::poll(Instant now) {
             ++counters_.exchanges;
             replied_at_ = exchange_.reply_arrived_at();
         }
-        if (exchange_.misses() >= kLostAfter) lose();
+        if (step_ != Step::Probing && now - *replied_at_ > kLostTime) lose();
     }
 
     switch (step_) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "tests/hal/usb/usb_rig.h"
 
@@ -219,6 +220,59 @@ TEST(UsbFaults, StalledPipesAreCountedAndOpenedAfresh) {
     EXPECT_GT(opened, 1);
     rig.device().stalled = false;
     EXPECT_GE(rig.until(HapticState::Ready, 6000), 0);
+}
+
+// A cable moved in its socket: transfers fail, and work again.
+TEST(UsbFaults, AMomentOfGarbledTransfersIsOutlived) {
+    UsbRig rig;
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.port->device.garbled = true;
+    rig.run(2, kPush);
+    rig.port->device.garbled = false;
+    rig.run(100, kPush);
+    EXPECT_EQ(rig.driver->state(), HapticState::Ready);
+    EXPECT_EQ(rig.port->opened, 1);
+    EXPECT_GT(rig.driver->counters().usb_errors, 8U);
+    EXPECT_NE(rig.board().last_command().motors, Axes{});
+    expect_true_positions(rig);
+}
+
+TEST(UsbFaults, ACableThatStaysBadIsOpenedAfreshUntilItIsGood) {
+    UsbRig rig;
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.port->device.garbled = true;
+    rig.run(1000, kPush);
+    EXPECT_NE(rig.driver->state(), HapticState::Ready);
+    EXPECT_GT(rig.port->opened, 2);
+    rig.port->device.garbled = false;
+    EXPECT_GE(rig.until(HapticState::Ready, 1000), 0);
+}
+
+// Requests that never end are called off at their deadline, so that the next try can begin.
+TEST(UsbFaults, ADeviceThatHangsIsGivenUpAndTakenBackWhenItWakes) {
+    UsbRig rig;
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.run(10, kPush);
+    rig.port->device.hung = true;
+    ASSERT_GE(rig.until(HapticState::Booting, 5000, kPush), 0);
+    const auto errors = rig.driver->counters().usb_errors;
+    rig.run(5000, kPush);
+    EXPECT_GT(rig.driver->counters().usb_errors, errors) << "control requests past their second";
+    rig.port->device.hung = false;
+    EXPECT_GE(rig.until(HapticState::Ready, 10000), 0);
+}
+
+TEST(UsbFaults, AProgramCanEndWhileTheDeviceHangs) {
+    UsbRig rig;
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.port->device.hung = true;
+    rig.run(3);
+    const auto began = std::chrono::steady_clock::now();
+    rig.driver.reset();
+    EXPECT_LT(std::chrono::steady_clock::now() - began, 2s);
+    rig.port->device.hung = false;
+    rig.start();
+    EXPECT_GE(rig.until(HapticState::Ready, 1000), 0);
 }
 
 TEST(UsbFaults, AnUploadMayBeUnpluggedAtAnyTime) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -47,7 +48,7 @@ struct UsbRig {
     }
 
     void tick(const glm::dvec3& force_n = glm::dvec3(0.0)) {
-        now += std::chrono::milliseconds(1);
+        now = std::max(now, bus().now()) + std::chrono::milliseconds(1);  // waiting in libusb takes time, too
         {
             const usb::InKernel kernel;
             bus().advance(now);
