@@ -113,8 +113,11 @@ class Parser {
             if (sign->level == kComparison && compared)
                 fail(at_, "comparisons cannot be chained; multiply them: (0 < x) * (x < 1)");
             compared = sign->level == kComparison;
+            const std::size_t begin = at_;
             take(sign->sign);
             left = applied(*sign, left);
+            if (sign->operation == "/" && is_zero(terms_[left].arguments[1]))
+                fail(begin, "this divides by 0: it has no value anywhere");
         }
         --nesting_;
         return left;
@@ -129,6 +132,27 @@ class Parser {
         const bool from_the_right = sign.level == kPower;
         const std::size_t right = expression(from_the_right ? sign.level : sign.level + 1);
         return operation(operation_row(sign.operation, 2), {left, right, 0});
+    }
+
+    /// Whether a term is 0 everywhere, as a float: what compilers of shaders make of x / 0 is their own affair, and may be any
+    /// number.
+    bool is_zero(std::size_t term) const {
+        const std::optional<double> value = constant(term);
+        return value && static_cast<float>(*value) == 0.0f;
+    }
+
+    std::optional<double> constant(std::size_t index) const {
+        const FormulaTerm& term = terms_[index];
+        if (term.kind == FormulaTerm::Kind::Number) return term.number;
+        if (term.kind == FormulaTerm::Kind::Variable) return std::nullopt;
+        const FormulaOperation& operation = formula_operations()[term.which];
+        std::array<double, 3> values{};
+        for (std::size_t i = 0; i < operation.arguments; ++i) {
+            const std::optional<double> value = constant(term.arguments[i]);
+            if (!value) return std::nullopt;
+            values[i] = *value;
+        }
+        return operation.value(values.data());
     }
 
     std::size_t operand() {

@@ -160,6 +160,16 @@ TEST(FormulaError, NamesColumnAndNearestName) {
     EXPECT_EQ(fault("nan"), "1: unknown name \"nan\"; nearest: tan");
 }
 
+// On Mesa x / 0.0 is some 1e31 in a shader: no number that a guard could tell from a strong wind.
+TEST(FormulaError, DivisionByZeroIsNamed) {
+    EXPECT_EQ(fault("1 / 0"), "3: this divides by 0: it has no value anywhere");
+    EXPECT_EQ(fault("y + x / (1 - 1)"), "7: this divides by 0: it has no value anywhere");
+    EXPECT_EQ(fault("x / 1e-300"), "3: this divides by 0: it has no value anywhere");
+    EXPECT_EQ(fault("x / sin(0 * 2)"), "3: this divides by 0: it has no value anywhere");
+    EXPECT_EQ(fault("x / (y - y)"), "") << "it is up to the guard in the shader";
+    EXPECT_EQ(fault("x / 1e-30"), "");
+}
+
 TEST(FormulaError, LengthAndDepthAreLimited) {
     EXPECT_THAT(fault(std::string(5000, '1')), HasSubstr("is too long"));
     for (const std::string unit : {"(", "-", "sin(", "2^", "1?", "1?1:", "1+(", "1<("}) {

@@ -99,9 +99,11 @@ class Mutator {
 // inside it.
 template <class Read>
 void expect_slips_load_or_are_refused(const std::vector<std::string>& seeds, int times, const Read& read) {
-    Mutator mutator(2009);
+    constexpr unsigned kSeed = 2009;
+    Mutator mutator(kSeed);
     int loaded = 0, refused = 0;
     for (int i = 0; i < times; ++i) {
+        SCOPED_TRACE(testing::Message() << "slip " << i << " of seed " << kSeed);
         const std::string text = mutator.mutated(seeds[static_cast<std::size_t>(i) % seeds.size()]);
         try {
             const Scene scene = read(text).scene;
