@@ -1,8 +1,9 @@
 #include "firmware/machine.h"
 
-#include <fmt/format.h>
+#include <fmt/chrono.h>
 #include <unistd.h>
 
+#include <ctime>
 #include <fstream>
 #include <thread>
 
@@ -18,6 +19,10 @@ std::string describe_machine() {
     const double bytes =
         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     return fmt::format("{}, {} cores, {:.0f} GB", model, std::thread::hardware_concurrency(), bytes / 1e9);
+}
+
+std::string today() {
+    return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
 }
 
 }  // namespace eddy

@@ -6,4 +6,7 @@ namespace eddy {
 /// "model name, N cores, M GB" of the machine this runs on, for reports that quote times.
 std::string describe_machine();
 
+/// "2026-11-22", as it is in Greenwich.
+std::string today();
+
 }  // namespace eddy

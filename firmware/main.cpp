@@ -1,6 +1,7 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 
 #include "config/diagnostic.h"
@@ -318,38 +319,69 @@ struct CommandLine {
         resume->needs(out);
         merge->needs(out);
         merge->excludes(shard)->excludes(resume);
-        auto* fuzz = verb->add_option("--fuzz", stability.fuzz,
-                                      "in place of the cases: so many scenes that chance makes, 200 steps "
-                                      "each; those that break "
-                                      "the rule are made as small as they get and written to --out")
-                         ->check(CLI::Range(1, 1000000));
+        verb->add_option(
+                "--fuzz", stability.fuzz,
+                "in place of the cases: so many scenes that chance makes, 200 steps each; those that "
+                "break the rule are made as small as they get and written to --out")
+            ->check(CLI::Range(1, 1000000));
+        verb->add_option(
+                "--hands", stability.hands,
+                "in place of the cases: so many hands that chance moves (leaps, nan, silence, bursts), "
+                "four seconds each at 1 kHz; whether any gets a force that it must not get")
+            ->check(CLI::Range(1, 1000000));
         verb->add_option("--seed", stability.seed,
-                         "of the first random scene; each has a seed of its own [1]")
-            ->needs(fuzz);
-        auto* endless =
-            verb->add_option(
-                    "--endless", stability.endless,
-                    "in place of the cases: a scene for so many steps, alone and with somebody who stirs; "
-                    "whether memory, smoke or force drift")
-                ->check(CLI::Range(1L, 1000000000L));
-        verb->add_option("--scene", stability.scene, "for --endless: shipped scene or file [stir]")
-            ->needs(endless);
-        verb->add_option("--set", stability.set,
-                         "change a key of that scene: --set solver.dt_s=0.01; may be repeated")
-            ->type_name("KEY=VALUE")
-            ->needs(endless);
-        fuzz->excludes(endless);
-        for (auto* cases_only : {quick, full, shard, resume, merge}) {
-            cases_only->excludes(fuzz);
-            cases_only->excludes(endless);
-        }
+                         "of the first random scene or hand; each has a seed of its own [1]");
+        verb->add_option(
+                "--endless", stability.endless,
+                "in place of the cases: a scene for so many steps, alone and with somebody who stirs; "
+                "whether memory, smoke or force drift; figures go to --out as well")
+            ->check(CLI::Range(1L, 1000000000L));
+        verb->add_option("--scene", stability.scene,
+                         "for --hands and --endless: shipped scene or file [stir; for hands on 8^3 cells]");
+        add_set(*verb, stability.set);
         verb->footer(
             "  eddy stability --quick                             what holds on this machine, in three "
             "minutes\n"
             "  eddy stability --case stall+cup --grid 25          two cases at once\n"
             "  eddy stability --fuzz 1000 --seed 1 --out fuzz     random scenes\n"
+            "  eddy stability --hands 1 --seed 7                  one random hand again\n"
             "  eddy stability --endless 100000 --set tank.cells=[16,16,16]\n"
-            "Exit status 1 if a cell is red, a scene breaks the rule or something drifts.");
+            "Exit status 1 if a cell is red, a scene or a hand breaks the rule or something drifts.");
+    }
+
+    /// What goes with what: else an option would be silently without effect.
+    void check_stability() const {
+        const CLI::App& verb = *app.get_subcommand("stability");
+        const auto given = [&](const std::string& option) { return verb.get_option(option)->count() > 0; };
+        struct Way {
+            const char* option;
+            std::vector<std::string> takes;
+        };
+        const std::vector<Way> ways{
+            {"--fuzz", {"--seed", "--out"}},
+            {"--hands", {"--seed", "--scene", "--set"}},
+            {"--endless", {"--scene", "--set", "--out"}},
+            {nullptr,
+             {"--list", "--quick", "--full", "--case", "--grid", "--shard", "--resume", "--merge", "--out"}}};
+        const Way& chosen = *std::find_if(ways.begin(), ways.end(),
+                                          [&](const Way& way) { return !way.option || given(way.option); });
+        for (const Way& way : ways) {
+            if (way.option && way.option != chosen.option && given(way.option))
+                throw InputError(fmt::format("{} and {}: one at a time", chosen.option, way.option));
+            for (const std::string& option : way.takes) {
+                const auto takes = [&](const Way& one) {
+                    return std::find(one.takes.begin(), one.takes.end(), option) != one.takes.end();
+                };
+                if (!given(option) || takes(chosen)) continue;
+                if (chosen.option)
+                    throw InputError(fmt::format("{} does not go with {}, which takes {}", option,
+                                                 chosen.option, fmt::join(chosen.takes, ", ")));
+                std::vector<std::string> takers;
+                for (const Way& one : ways)
+                    if (takes(one)) takers.emplace_back(one.option);
+                throw InputError(fmt::format("{} goes with {} only", option, fmt::join(takers, " or ")));
+            }
+        }
     }
 
     /// CLI11 would call an unknown verb a missing one.
@@ -369,7 +401,9 @@ struct CommandLine {
     }
 
     int act_on_stability() {
+        check_stability();
         if (stability.fuzz) return fuzz_scenes(stability);
+        if (stability.hands) return fuzz_hands(stability);
         return stability.endless ? run_endlessly(stability) : test_stability(stability);
     }
 

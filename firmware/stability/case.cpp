@@ -35,8 +35,8 @@ glm::ivec3 grid_named(const std::string& name) {
 const std::vector<Case>& all_cases() {
     static const std::vector<Case> cases = [] {
         std::vector<Case> all;
-        for (auto* const page : {jet_cases, time_cases, hand_cases, wall_cases, body_cases, friction_cases,
-                                 effect_cases, number_cases, fault_cases})
+        for (auto* const page : {jet_cases, time_cases, hand_cases, wall_cases, body_cases, distance_cases,
+                                 friction_cases, effect_cases, number_cases, fault_cases})
             for (Case& one : page()) all.push_back(std::move(one));
         std::stable_sort(all.begin(), all.end(),
                          [](const Case& a, const Case& b) { return a.number < b.number; });
@@ -55,9 +55,6 @@ const std::vector<NotOffered>& not_offered() {
          "textures with garbage, is tried (garbage-reset)"},
         {31, "splashes, drops, an empty and a full tank", "there is no free surface in this version"},
         {32, "shear-thinning fluids and yield stress", "viscosity is constant in this version"},
-        {33, "a distance scaled by 0.1 or 10",
-         "distances are made by the program from shapes and closed meshes; the "
-         "worst that can be asked for is a needle of an ellipsoid (needle)"},
     };
     return list;
 }

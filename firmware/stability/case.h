@@ -68,8 +68,17 @@ struct Case {
     std::function<void(Moment&)> script = {};
     /// Changes where bodies are said to be, before the fluid is told; only without a hand.
     std::function<void(const Moment&, std::vector<gles::BodyState>&)> bodies = {};
+    /// Changes what the fluid is made of where no scene can; only without a hand.
+    std::function<void(gles::FluidSetup&)> solids = {};
+    /// A figure of the case's own, taken at each look: History::Look::measured.
+    std::function<double(gles::Gpu&, const gles::Fluid&, const Fields&, double time_s)> measure = {};
     /// What is wrong, if `wants` does not hold.
     std::function<std::optional<std::string>(const History&)> complaint = {};
+    /// A figure that the reader wants to know, green or red, in words.
+    std::function<std::string(const History&)> remark = {};
+    bool compares = false;       ///< with the common scene, which is run as well
+    bool ends_when_red = false;  ///< how far it goes after that is of no interest
+    bool looks_always = false;   ///< into the fields, after each step, whatever that costs
     long steps = 500;
     double calm_share =
         0.5;  ///< of the steps, at the end, in which nothing disturbs; 0: something always does
@@ -109,7 +118,8 @@ std::vector<Case> jet_cases();       // 1, 19, 20
 std::vector<Case> time_cases();      // 2, 3
 std::vector<Case> hand_cases();      // 4, 5, 21, 30, 34
 std::vector<Case> wall_cases();      // 6, 7, 10, 11
-std::vector<Case> body_cases();      // 8, 9, 12, 13, 33
+std::vector<Case> body_cases();      // 8, 9, 12, 13
+std::vector<Case> distance_cases();  // 33
 std::vector<Case> friction_cases();  // 14, 15, 16, 29
 std::vector<Case> effect_cases();    // 17, 18
 std::vector<Case> number_cases();    // 22, 26, 27, 28

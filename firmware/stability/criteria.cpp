@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <numbers>
 
 namespace eddy::stability {
 namespace {
@@ -30,16 +28,6 @@ double most(const History& history, double from, double to, Figure figure) {
         if (const auto step = static_cast<double>(look.step); step >= from * steps && step < to * steps)
             found = std::max(found, figure(look));
     return found;
-}
-
-double force_n(const History::Step& step, std::size_t body = 0) {
-    return body < step.loads.size() ? glm::length(step.loads[body].force_n) : 0.0;
-}
-
-double peak_force_n(const History& history, std::size_t body = 0) {
-    double peak = 0.0;
-    for (const History::Step& step : history.steps) peak = std::max(peak, force_n(step, body));
-    return peak;
 }
 
 Criterion levels_off(double (*figure)(const History::Look&), double factor, const char* what) {
@@ -116,23 +104,6 @@ Criterion no_faster_than_a_fall(double expansion_1_k) {
     };
 }
 
-Criterion gives_back_no_more() {
-    return [](const History& history) -> Complaint {
-        double work_j = 0.0, given_j = 0.0;
-        for (const History::Step& step : history.steps)
-            for (std::size_t i = 0; i < std::min(step.loads.size(), step.bodies.size()); ++i) {
-                const double work =
-                    -step.dt_s * (glm::dot(step.loads[i].force_n, step.bodies[i].velocity_m_s) +
-                                  glm::dot(step.loads[i].torque_nm, step.bodies[i].spin_rad_s));
-                work_j += work;
-                given_j += std::max(0.0, work);
-            }
-        if (work_j >= -1e-6 * given_j) return {};
-        return fmt::format("the fluid gave back {:.3g} J more than the {:.3g} J it was given", -work_j,
-                           given_j);
-    };
-}
-
 Criterion volume_balances(double share) {
     return [=](const History& history) -> Complaint {
         double most_m3_s = 0.0, worst = 0.0;
@@ -148,83 +119,28 @@ Criterion volume_balances(double share) {
     };
 }
 
-Criterion force_is_continuous(std::size_t i, double share, long settling) {
-    return [=](const History& history) -> Complaint {
-        const double peak = peak_force_n(history, i);
-        for (std::size_t n = static_cast<std::size_t>(settling) + 1; n < history.steps.size(); ++n) {
-            const History::Step &last = history.steps[n - 1], &now = history.steps[n];
-            if (i >= now.loads.size()) return {};
-            const double jump = glm::length(now.loads[i].force_n - last.loads[i].force_n);
-            if (jump > share * peak)
-                return fmt::format("the force jumps by {:.0f} % of its peak at step {}", 100.0 * jump / peak,
-                                   n + 1);
-        }
-        return {};
+Remark remark_on_time() {
+    return [](const History& history) {
+        const auto median_s = [&](std::size_t from, std::size_t to) {
+            std::vector<double> took;
+            for (std::size_t n = from; n < to; ++n) took.push_back(history.steps[n].wall_s);
+            if (took.empty()) return 0.0;
+            const auto middle = took.begin() + static_cast<std::ptrdiff_t>(took.size() / 2);
+            std::nth_element(took.begin(), middle, took.end());
+            return *middle;
+        };
+        const std::size_t all = history.steps.size(), fifth = all / 5;
+        const double first_s = median_s(0, fifth), last_s = median_s(all - fifth, all);
+        return fmt::format("a step of the last fifth takes {:.2f} times as long as one of the first",
+                           first_s > 0.0 ? last_s / first_s : 0.0);
     };
 }
 
-Criterion hand_let_go(double within_s) {
-    return [=](const History& history) -> Complaint {
-        double answered_s = 0.0;
-        for (const History::Tick& tick : history.ticks) {
-            if (tick.answered) answered_s = tick.time_s;
-            if (tick.time_s - answered_s > within_s + 1e-6 && tick.force_n > 0.0)
-                return fmt::format("{:.0f} ms after the last answer the hand still gets {:.2g} N",
-                                   1e3 * (tick.time_s - answered_s), tick.force_n);
-        }
-        return {};
-    };
-}
-
-Criterion force_recovers(double within_s) {
-    return [=](const History& history) -> Complaint {
-        const double peak = peak_force_n(history);
-        double disturbed_s = 0.0;
-        for (const History::Step& step : history.steps) {
-            if (step.disturbed) disturbed_s = step.time_s;
-            if (step.time_s - disturbed_s > within_s + 1e-6 && force_n(step) > 0.02 * peak)
-                return fmt::format("{:.2f} s after the last disturbance the force is {:.2g} % of its peak",
-                                   step.time_s - disturbed_s, 100.0 * force_n(step) / peak);
-        }
-        return {};
-    };
-}
-
-Criterion same_after_each_reset() {
-    return [](const History& history) -> Complaint {
-        // Steps since the reset before them, in the first stretch and in every other.
-        std::vector<glm::dvec3> first;
-        std::size_t since = 0;
-        for (std::size_t n = 0; n < history.steps.size(); ++n) {
-            const History::Step& step = history.steps[n];
-            since = n > 0 && step.resets == history.steps[n - 1].resets ? since + 1 : 0;
-            if (step.loads.empty()) return {};
-            if (step.resets == 0)
-                first.push_back(step.loads[0].force_n);
-            else if (since < first.size() && step.loads[0].force_n != first[since])
-                return fmt::format("after reset {} step {} has another force than after the start",
-                                   step.resets, since + 1);
-        }
-        return {};
-    };
-}
-
-Criterion no_force_outside() {
-    return [](const History& history) -> Complaint {
-        const glm::dvec3 size = history.tank.cell_m * glm::dvec3(history.tank.cells);
-        for (std::size_t n = 0; n < history.steps.size(); ++n) {
-            const History::Step& step = history.steps[n];
-            if (step.bodies.empty() || step.loads.empty()) return {};
-            // The ball's radius is a fifth of the shortest side.
-            const double radius = 0.2 * std::min({size.x, size.y, size.z}) + 2.0 * history.tank.cell_m;
-            const glm::dvec3& at = step.bodies[0].centre_m;
-            const bool outside = glm::any(glm::lessThan(at, glm::dvec3(-radius))) ||
-                                 glm::any(glm::greaterThan(at, size + radius));
-            if (outside && force_n(step) > 0.0)
-                return fmt::format("the force is {:.3g} N at step {}, with the body outside", force_n(step),
-                                   n + 1);
-        }
-        return {};
+Remark remark_on_energy() {
+    return [](const History& history) {
+        const double end_j = history.looks.empty() ? 0.0 : history.looks.back().energy_j;
+        return fmt::format("{:.2g} of the kinetic energy of the start are left at the end",
+                           history.start_energy_j > 0.0 ? end_j / history.start_energy_j : 0.0);
     };
 }
 
@@ -235,65 +151,6 @@ Criterion energy_decays(long by_step) {
                 return fmt::format("step {} has {:.0f} % of the kinetic energy of the start", look.step + 1,
                                    100.0 * look.energy_j / history.start_energy_j);
         return {};
-    };
-}
-
-Criterion loads_stay_finite() {
-    return [](const History& history) -> Complaint {
-        for (std::size_t n = 0; n < history.steps.size(); ++n)
-            for (const gles::Load& load : history.steps[n].loads)
-                if (!std::isfinite(glm::length(load.force_n) + glm::length(load.torque_nm)))
-                    return fmt::format("step {} hands out a load that is not finite", n + 1);
-        return {};
-    };
-}
-
-Criterion no_time_no_news() {
-    return [](const History& history) -> Complaint {
-        const double nominal_s = history.steps.front().dt_s, peak = peak_force_n(history);
-        for (std::size_t n = 1; n < history.steps.size(); ++n) {
-            const History::Step &last = history.steps[n - 1], &now = history.steps[n];
-            if (now.dt_s > 1e-3 * nominal_s || now.loads.empty()) continue;
-            const double jump = glm::length(now.loads[0].force_n - last.loads[0].force_n);
-            if (!(jump <= 1e-3 * peak))
-                return fmt::format("a step of {:.2g} s changes the force by {:.2g} of its peak (step {})",
-                                   now.dt_s, jump / peak, n + 1);
-        }
-        return {};
-    };
-}
-
-Criterion no_other_lines(double frequency_hz) {
-    return [=](const History& history) -> Complaint {
-        // The second half of what is disturbed, of whole periods.
-        std::vector<double> force;
-        double dt_s = 0.0;
-        for (const History::Step& step : history.steps)
-            if (step.disturbed && !step.loads.empty()) {
-                force.push_back(step.loads[0].force_n.x);
-                dt_s = step.dt_s;
-            }
-        force.erase(force.begin(), force.begin() + static_cast<std::ptrdiff_t>(force.size() / 2));
-        const auto period = static_cast<std::size_t>(std::lround(1.0 / (frequency_hz * dt_s)));
-        const std::size_t periods = force.size() / period, n = periods * period;
-        if (periods < 4) return {};
-        double main = 0.0, other = 0.0, worst_hz = 0.0;
-        for (std::size_t line = 1; line <= n / 2; ++line) {
-            std::complex<double> sum;
-            for (std::size_t i = 0; i < n; ++i)
-                sum += force[i] * std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(line * i) /
-                                                      static_cast<double>(n));
-            const double height = std::abs(sum);
-            if (line % periods == 0) {
-                main = std::max(main, height);
-            } else if (height > other) {
-                other = height;
-                worst_hz = static_cast<double>(line) / (static_cast<double>(n) * dt_s);
-            }
-        }
-        if (other <= 0.05 * main) return {};
-        return fmt::format("a line of the force at {:.1f} Hz is {:.0f} % of that of the motion", worst_hz,
-                           100.0 * other / main);
     };
 }
 

@@ -36,6 +36,14 @@ Criterion force_recovers(double within_s);
 Criterion same_after_each_reset();
 /// No force from a body that is not in the tank.
 Criterion no_force_outside();
+/// On its way back in through a wall, up to a diameter behind it, the force on the ball changes from step to step by no more
+/// than it would if all of it came and went within half a diameter.
+Criterion returns_smoothly();
+/// What bodies together feel is what pressure and friction took from the momentum of the fluid around them, but for this share
+/// of the peak (validation B8.2; gles/fluid/force_methods.h). For scenes that ask for force_methods, without gravity.
+Criterion forces_balance(double share);
+/// Forces on body 0 are those of the common scene times this, but for a share of the peak.
+Criterion same_as_common(double factor, double share);
 /// Energy is down to a tenth by this step.
 Criterion energy_decays(long by_step);
 /// After each fault no texel is left that is not finite; loads are finite all the time.
@@ -46,5 +54,17 @@ Criterion no_time_no_news();
 Criterion no_other_lines(double frequency_hz);
 /// All of these.
 Criterion all_of(std::vector<Criterion> criteria);
+
+// Figures that are of interest, good or bad, in words (Case::remark).
+using Remark = std::function<std::string(const History&)>;
+
+/// What forces_balance() looks at.
+Remark remark_on_balance();
+/// What same_as_common() looks at.
+Remark remark_on_common(double factor);
+/// How much longer a step takes in the last fifth than in the first.
+Remark remark_on_time();
+/// Kinetic energy at the end, to that at the start.
+Remark remark_on_energy();
 
 }  // namespace eddy::stability

@@ -21,6 +21,27 @@ void vortices(Scene& s) {
         0.0);
 }
 
+/// How far a flow on cells is off what becomes of those vortices with friction (validation A1), as a share of them at the start.
+double off_the_decay(gles::Gpu&, const gles::Fluid& fluid, const Fields& fields, double time_s) {
+    const gles::FluidSetup& setup = fluid.setup();
+    const glm::ivec3 n = setup.cells;
+    const double kx = std::numbers::pi / (setup.cell_m * n.x), ky = std::numbers::pi / (setup.cell_m * n.y);
+    const double left = std::exp(-setup.viscosity_pa_s / setup.density_kg_m3 * (kx * kx + ky * ky) * time_s);
+    double off = 0.0, start = 0.0;
+    std::size_t i = 0;
+    for (int z = 0; z < n.z; ++z)
+        for (int y = 0; y < n.y; ++y)
+            for (int x = 0; x < n.x; ++x, ++i) {
+                const double at_x = kx * setup.cell_m * (x + 0.5), at_y = ky * setup.cell_m * (y + 0.5);
+                const glm::dvec3 exact(0.1 * std::sin(at_x) * std::cos(at_y),
+                                       -0.1 * kx / ky * std::cos(at_x) * std::sin(at_y), 0.0);
+                const glm::dvec3 apart = glm::dvec3(fields.velocity_m_s.at(i)) - left * exact;
+                off += glm::dot(apart, apart);
+                start += glm::dot(exact, exact);
+            }
+    return std::sqrt(off / start);
+}
+
 /// 14
 Case inviscid(const char* name, const char* title, std::function<void(Scene&)> transport) {
     return {.number = 14,
@@ -101,7 +122,16 @@ std::vector<Case> friction_cases() {
                  s.solver.cycles.reset();
                  s.solver.viscous_cycles.reset();
              },
+         .measure = off_the_decay,
          .complaint = speed_never_rises(),
+         .remark =
+             [](const History& history) {
+                 if (history.looks.empty()) return std::string();
+                 return fmt::format(
+                     "the exact flow is at rest; after the first step {:.2g} of it are left, after the last "
+                     "{:.2g}",
+                     history.looks.front().measured, history.looks.back().measured);
+             },
          .calm_share = 0.0,
          .alone = true});
     cases.push_back({.number = 29,
@@ -119,6 +149,7 @@ std::vector<Case> friction_cases() {
                                  };
                          },
                      .complaint = energy_never_rises(),
+                     .remark = remark_on_energy(),
                      .steps = 100,
                      .calm_share = 0.0});
     return cases;

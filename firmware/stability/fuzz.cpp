@@ -2,52 +2,42 @@
 
 #include <fmt/format.h>
 
-#include "firmware/body_schedule.h"
-#include "firmware/fluid_setup.h"
-#include "firmware/stability/field_work.h"
-#include "firmware/stability/ledger.h"
+#include <algorithm>
+
 #include "firmware/stability/random_scene.h"
+#include "firmware/stability/trial.h"
 #include "firmware/text_file.h"
 
 namespace eddy::stability {
-
 namespace {
 
-/// Bodies anywhere may leave a gap of one cell for what a whole side of the tank pushes.
-double narrowing(const gles::FluidSetup& setup) {
-    return setup.bodies.empty() ? 1.0 : std::max({setup.cells.x, setup.cells.y, setup.cells.z});
+/// A scene as a case of its own: nothing happens but what it says, and a held body stays where it is.
+Case as_case(const Scene& scene, long steps) {
+    glm::dvec3 held_m(0.0);
+    for (const Scene::Body& body : scene.bodies)
+        if (body.motion == BodyMotion::Held) held_m = body.centre_m;
+    return {.name = "scene",
+            .drive = Drive::Steps,
+            .change = [&scene](Scene& s) { s = scene; },
+            .script = [held_m](Moment& m) { m.hand_m = held_m; },
+            .ends_when_red = true,
+            .looks_always = true,
+            .steps = steps,
+            .calm_share = 0.0,
+            // Bodies anywhere may leave a gap of one cell for what a whole side of the tank pushes.
+            .narrowing =
+                [&scene](const glm::ivec3& n) {
+                    return scene.bodies.empty() ? 1.0 : std::max({n.x, n.y, n.z});
+                }};
 }
 
 }  // namespace
 
 Violation first_violation(gles::Gpu& gpu, const Scene& scene, long steps) {
-    const gles::FluidSetup setup = fluid_setup(scene);
-    const BodySchedule motions(scene);
-    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, setup);
-    const Tank tank = tank_of(setup);
-    Ledger ledger(scene, setup, narrowing(setup));
-    Rule rule(tank);
-    rule.begin(download(*fluid));
-    const double dt_s = scene.solver.dt_s;
-    double field_work = 0.0;
-    long step = 0;
-    while (step < steps && !rule.failed()) {
-        const double time_s = static_cast<double>(++step) * dt_s;
-        fluid->step(dt_s, motions.at(time_s, dt_s), false);
-        std::vector<gles::Load> loads;
-        if (!scene.bodies.empty()) loads = fluid->wait_result().loads;
-        const std::vector<gles::Load> at_rest = ledger.at_rest();
-        for (std::size_t i = 0; i < loads.size(); ++i) loads[i].force_n -= at_rest[i].force_n;
-        ledger.add(time_s, dt_s, fluid->bodies(), loads);
-        const Fields fields = download(*fluid);
-        Justified may = ledger.justified();
-        may.speed_m_s = std::max(may.speed_m_s, falling_speed_m_s(setup));
-        if (tank.staggered) field_work += field_work_j(setup, fields, dt_s);
-        may.work_j += field_work;
-        may.given_j += field_work;
-        rule.see({.step = step, .time_s = time_s, .justified = may, .fields = &fields, .loads = loads});
-    }
-    return {rule.verdict().reason, step};
+    const Case one = as_case(scene, steps);
+    const Case* const cases[] = {&one};
+    const Outcome outcome = try_out(gpu, cases, {.cells = scene.tank.cells}, steps);
+    return {outcome.verdict.reason, outcome.steps};
 }
 
 std::vector<FuzzFinding> fuzz(gles::Gpu& gpu, const FuzzPlan& plan,

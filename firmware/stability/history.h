@@ -14,6 +14,8 @@ struct History {
         long resets = 0;                     ///< so far
         std::vector<gles::Load> loads = {};  ///< without what bodies feel at rest
         std::vector<gles::BodyState> bodies = {};
+        std::vector<gles::ForceMethods> methods = {};  ///< where the scene asks for them
+        double wall_s = 0.0;                           ///< it took
     };
     /// What was found in the fields after a step.
     struct Look {
@@ -25,6 +27,7 @@ struct History {
         FieldRange smoke = {}, temperature_k = {};
         double in_m3_s = 0.0, net_m3_s = 0.0;  ///< through the walls: what comes in; that less what goes out
         long non_finite = 0;
+        double measured = 0.0;  ///< what the case itself measures (Case::measure)
     };
     /// What the hand got at a tick.
     struct Tick {
@@ -39,6 +42,8 @@ struct History {
     std::vector<Step> steps = {};
     std::vector<Look> looks = {};
     std::vector<Tick> ticks = {};
+    /// Forces on body 0 of the common scene, step by step, if the case compares itself with it (Case::compares).
+    std::vector<glm::dvec3> common_n = {};
 };
 
 History::Look look_at(const Tank& tank, const Fields& fields, long step);

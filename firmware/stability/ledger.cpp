@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "firmware/stability/field_work.h"
 #include "gles/body/bounds.h"
 #include "gles/body/mass_properties.h"
 
@@ -48,8 +49,12 @@ double cube(double x) {
 
 }  // namespace
 
-Ledger::Ledger(const Scene& scene, const gles::FluidSetup& setup, double narrowing)
-    : scene_(scene), setup_(setup), tank_(tank_of(setup)), running_(scene.sources.size(), false) {
+Ledger::Ledger(const Scene& scene, const gles::FluidSetup& setup, double narrowing, Inflow inflow)
+    : scene_(scene),
+      setup_(setup),
+      tank_(tank_of(setup)),
+      running_(scene.sources.size(), false),
+      inflow_seen_(inflow == Inflow::Seen && tank_.staggered) {
     for (const gles::BodySetup& body : setup.bodies) {
         volume_m3_.push_back(body.inside_out ? 0.0 : gles::mass_properties(body.shape).volume_m3);
         radius_m_.push_back(gles::bounding_radius_m(body.shape));
@@ -57,6 +62,7 @@ Ledger::Ledger(const Scene& scene, const gles::FluidSetup& setup, double narrowi
     justified_.narrowing = narrowing;
     justified_.rest_speed_m_s = std::sqrt(glm::length(setup.gravity_m_s2) * tank_.longest_m());
     faster(largest(scene, scene.initial.velocity_m_s, 0.0));
+    faster(falling_speed_m_s(setup));
     others_drive_ = scene.forcing || scene.temperature || (scene.smoke && scene.smoke->weight != 0.0);
     for (const Scene::Source& source : scene.sources) others_drive_ |= source.velocity_m_s.has_value();
     for (const Scene::Wall* wall : scene.tank.walls.all()) others_drive_ |= wall->velocity_m_s.has_value();
@@ -165,12 +171,18 @@ void Ledger::add_sources(double time_s, double dt_s) {
     }
 }
 
+void Ledger::add_fields(double dt_s, const Fields& fields) {
+    if (tank_.staggered) give(field_work_j(setup_, fields, dt_s));
+}
+
 void Ledger::add_walls(double time_s, double dt_s) {
     double fastest = 0.0;
     const auto walls = scene_.tank.walls.all();
     for (std::size_t i = 0; i < walls.size(); ++i) {
         if (!walls[i]->velocity_m_s) continue;
         const double speed = largest(scene_, *walls[i]->velocity_m_s, time_s);
+        faster(speed);
+        if (walls[i]->kind == WallKind::Inflow && inflow_seen_) continue;
         fastest = std::max(fastest, speed);
         if (walls[i]->kind != WallKind::Inflow) continue;
         // What comes in brings its energy, and works against the pressure.
@@ -178,7 +190,6 @@ void Ledger::add_walls(double time_s, double dt_s) {
         const double area = size.x * size.y * size.z / size[static_cast<int>(i / 2)];
         give(2.0 * square(justified_.narrowing) * 0.5 * setup_.density_kg_m3 * area * cube(speed) * dt_s);
     }
-    faster(fastest);
     whole_tank(walls_m_s_, fastest * justified_.narrowing);
 }
 

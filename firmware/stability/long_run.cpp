@@ -7,8 +7,7 @@
 #include <fstream>
 #include <numeric>
 
-#include "firmware/haptic/loop.h"
-#include "firmware/show.h"
+#include "firmware/stability/stepped_exhibit.h"
 #include "gles/grid_io.h"
 #include "hal/haptic/emulated/make_emulated_falcon.h"
 #include "hal/haptic/emulated/person_motion.h"
@@ -64,17 +63,11 @@ LongRunSample sample(gles::Gpu& gpu, const Show& show, const Sums& sums) {
 
 std::vector<LongRunSample> long_run(gles::Gpu& gpu, const Scene& scene, Visitor visitor, long steps,
                                     const std::function<void(long step)>& on_step) {
-    HapticExchange exchange;
-    Show show(gpu, scene, exchange);
-    exchange.orders.publish(orders_for(scene, show.fluid().setup()));
     const std::unique_ptr<HapticDevice> hand =
         visitor == Visitor::Stirs ? emulated::make_emulated_falcon(
                                         std::make_unique<emulated::PersonMotion>(emulated::PersonSettings{}))
                                   : nullptr;
-    TickTrace trace(1000);
-    std::optional<HapticLoop> loop;
-    if (hand) loop.emplace(*hand, exchange, trace);
-    std::vector<TickRecord> ticks(1000);
+    SteppedExhibit exhibit(gpu, scene, hand.get());
 
     const Instant period = std::chrono::duration_cast<Instant>(Seconds(scene.solver.dt_s));
     const long a_visit = std::lround(kVisit / Seconds(scene.solver.dt_s));
@@ -83,18 +76,16 @@ std::vector<LongRunSample> long_run(gles::Gpu& gpu, const Scene& scene, Visitor 
     Instant tick{0};
     for (long step = 1; step <= steps; ++step) {
         const Instant now = step * period;
-        for (; tick < now; tick += kTick)
-            if (loop) loop->tick(tick);
-        if (step > 1) show.publish(true);
-        show.update(now, Seconds(scene.solver.dt_s), false);
-        sums.force_n += glm::length(exchange.fluid.newest().force_n);
+        for (; tick < now; tick += kTick) exhibit.tick(tick);
+        exhibit.update(now, Seconds(scene.solver.dt_s));
+        sums.force_n += glm::length(exhibit.answer().force_n);
         ++sums.steps;
-        while (const std::size_t count = trace.drain(ticks)) {
-            for (std::size_t i = 0; i < count; ++i) sums.sent_n += glm::length(ticks[i].sent_force_n);
-            sums.ticks += static_cast<long>(count);
+        for (const TickRecord& record : exhibit.ticks()) {
+            sums.sent_n += glm::length(record.sent_force_n);
+            ++sums.ticks;
         }
         if (step % a_visit == 0) {
-            if (step > a_visit) samples.push_back(sample(gpu, show, sums));
+            if (step > a_visit) samples.push_back(sample(gpu, exhibit.show(), sums));
             sums = {};
         }
         if (on_step) on_step(step);

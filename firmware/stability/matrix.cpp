@@ -4,18 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <set>
 #include <sstream>
+#include <tuple>
 
 #include "firmware/input_error.h"
+#include "firmware/machine.h"
 
 namespace eddy::stability {
 namespace {
 
 constexpr long kQuickSteps = 60;
 
-/// Those that everybody's tests try at once: one of each kind, each hard by itself.
+/// Those that everybody's tests try at once: one of each kind, each hard by itself. Named as in the whole product.
 constexpr const char* kQuickPairs[] = {"stall+inflow-20hz",          "teleport-50+late-answers",
-                                       "covers-all+nan-in-pressure", "piston+jitter",
+                                       "covers-all+nan-in-pressure", "jitter+piston",
                                        "plate-turning+friction-10",  "courant-50+cross-through"};
 
 std::vector<const Case*> pair_named(const std::string& name) {
@@ -60,6 +64,11 @@ std::vector<std::vector<const Case*>> asked_for(const Order& order) {
     return rows;
 }
 
+bool is_quick_pair(const std::vector<const Case*>& row) {
+    const std::string name = row[0]->name + "+" + row[1]->name;
+    return std::find(std::begin(kQuickPairs), std::end(kQuickPairs), name) != std::end(kQuickPairs);
+}
+
 std::vector<glm::ivec3> grids_for(const std::vector<const Case*>& row, const Order& order) {
     std::vector<glm::ivec3> grids;
     for (const std::string& name : order.grids) grids.push_back(grid_named(name));
@@ -72,8 +81,9 @@ std::vector<glm::ivec3> grids_for(const std::vector<const Case*>& row, const Ord
         return own;
     }
     if (!grids.empty()) return grids;
-    if (row.size() > 1) return {glm::ivec3(25)};
     if (order.extent == Extent::Quick) return {glm::ivec3(8)};
+    if (row.size() > 1 && is_quick_pair(row)) return {glm::ivec3(8), glm::ivec3(25)};
+    if (row.size() > 1) return {glm::ivec3(25)};
     if (order.extent == Extent::Usual || row.front()->small_only) return {glm::ivec3(8), glm::ivec3(25)};
     return {glm::ivec3(8), glm::ivec3(25), glm::ivec3(33, 47, 29), glm::ivec3(64)};
 }
@@ -88,7 +98,7 @@ std::string quoted(const std::string& text) {
 constexpr const char* kHead =
     "case,name,grid,effort,steps,pass,reason,kinetic_energy_ratio,largest_force_n,recovery_s,non_finite_"
     "texels,"
-    "wall_s\n";
+    "wall_s,remark,tried\n";
 
 std::vector<std::string> fields_of(const std::string& line) {
     std::vector<std::string> fields(1);
@@ -117,6 +127,8 @@ Result result_from(const std::vector<std::string>& f) {
     if (!f.at(9).empty()) verdict.recovery_s = std::stod(f.at(9));
     verdict.non_finite = std::stol(f.at(10));
     result.outcome.wall_s = std::stod(f.at(11));
+    result.outcome.remark = f.at(12);
+    result.tried = f.at(13);
     return result;
 }
 
@@ -128,12 +140,8 @@ std::string Cell::name() const {
     return name;
 }
 
-double Cell::work() const {
-    const long steps = std::min(most_steps, cases.size() > 1 ? kStepsOfPair : cases.front()->steps);
-    const glm::dvec3 n(trial.cells);
-    // A fluid's shaders are compiled in the time of some steps; of small grids the passes cost, not the cells.
-    return (trial.effort == Effort::Default ? 1.5 : 1.0) * static_cast<double>(steps + 50) *
-           (n.x * n.y * n.z + 4000.0);
+long Cell::steps() const {
+    return std::min(most_steps, cases.size() > 1 ? kStepsOfPair : cases.front()->steps);
 }
 
 std::vector<Cell> cells_of(const Order& order) {
@@ -154,19 +162,44 @@ bool Result::is_of(const Cell& cell) const {
 }
 
 Result result_of(const Cell& cell, const Outcome& outcome) {
-    return {cell.cases.front()->number, cell.name(), grid_name(cell.trial.cells),
-            std::string(to_word(cell.trial.effort)), outcome};
+    return {cell.cases.front()->number,
+            cell.name(),
+            grid_name(cell.trial.cells),
+            std::string(to_word(cell.trial.effort)),
+            outcome,
+            today() + ", " EDDY_VERSION};
+}
+
+const Result* find(std::span<const Result> results, const Cell& cell) {
+    const auto found = std::find_if(results.begin(), results.end(),
+                                    [&](const Result& result) { return result.is_of(cell); });
+    return found == results.end() ? nullptr : &*found;
+}
+
+std::vector<std::size_t> telling_first(std::span<const Cell> cells, std::span<const Result> known) {
+    std::set<std::string> red;
+    for (const Result& result : known)
+        if (!result.outcome.verdict.pass) red.insert(result.name);
+    const auto rank = [&](std::size_t i) {
+        const glm::ivec3& n = cells[i].trial.cells;
+        return std::tuple(n.x * n.y * n.z, n.x, n.y, cells[i].cases.size(), !red.contains(cells[i].name()));
+    };
+    std::vector<std::size_t> order(cells.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    return order;
 }
 
 std::string csv_of(std::span<const Result> results) {
     std::string text = kHead;
     for (const Result& r : results) {
         const Verdict& v = r.outcome.verdict;
-        text += fmt::format("{},{},{},{},{},{},{},{:.6g},{:.6g},{},{},{:.3f}\n", r.number, r.name, r.grid,
-                            r.effort, r.outcome.steps, v.pass ? "yes" : "no", quoted(v.reason),
+        text += fmt::format("{},{},{},{},{},{},{},{:.6g},{:.6g},{},{},{:.3f},{},{}\n", r.number, r.name,
+                            r.grid, r.effort, r.outcome.steps, v.pass ? "yes" : "no", quoted(v.reason),
                             v.kinetic_energy_ratio, v.largest_force_n,
                             v.recovery_s ? fmt::format("{:.3f}", *v.recovery_s) : "", v.non_finite,
-                            r.outcome.wall_s);
+                            r.outcome.wall_s, quoted(r.outcome.remark), quoted(r.tried));
     }
     return text;
 }
@@ -191,20 +224,10 @@ std::vector<Result> results_from_csv(const std::string& text, const std::filesys
 std::vector<Result> merged(std::span<const Cell> cells, std::span<const std::vector<Result>> parts) {
     std::vector<Result> all;
     for (const Cell& cell : cells) {
-        std::vector<const Result*> found;
+        const Result* newest = nullptr;
         for (const std::vector<Result>& part : parts)
-            for (const Result& result : part)
-                if (result.is_of(cell)) found.push_back(&result);
-        const std::string what = fmt::format("{} on {}, {} effort", cell.name(), grid_name(cell.trial.cells),
-                                             to_word(cell.trial.effort));
-        if (found.empty())
-            throw InputError(
-                fmt::format("--merge: none of these folders holds {}: give all parts, and --quick, --full, "
-                            "--case and --grid as they had it",
-                            what));
-        if (found.size() > 1)
-            throw InputError(fmt::format("--merge: {} is there {} times", what, found.size()));
-        all.push_back(*found.front());
+            if (const Result* found = find(part, cell)) newest = found;
+        if (newest) all.push_back(*newest);
     }
     return all;
 }

@@ -26,8 +26,7 @@ struct Cell {
     long most_steps;
     /// "stall", "stall+corner"
     std::string name() const;
-    /// What it may cost, in whatever unit: cells times steps.
-    double work() const;
+    long steps() const;
 };
 
 /// All cells, row by row. Throws InputError for cases and grids that do not exist.
@@ -40,17 +39,25 @@ struct Result {
     std::string grid = {};
     std::string effort = {};
     Outcome outcome = {};
+    std::string tried = {};  ///< day and version: "2026-11-22, 0.1.0"
     bool is_of(const Cell& cell) const;
 };
+/// Tried now, by this program.
 Result result_of(const Cell& cell, const Outcome& outcome);
+/// The result of a cell, or none.
+const Result* find(std::span<const Result> results, const Cell& cell);
+
+/// In which order cells are best tried, as indices: small grids first, on each single cases before pairs, and of these those first
+/// that were red on a smaller grid, or before.
+std::vector<std::size_t> telling_first(std::span<const Cell> cells, std::span<const Result> known);
 
 /// case, name, grid, effort, steps, pass, reason, kinetic energy ratio, largest force, recovery time, non-finite texels, wall
-/// time: a line for each result, after a line of names.
+/// time, remark, when and by what version: a line for each result, after a line of names.
 std::string csv_of(std::span<const Result> results);
 /// What csv_of() wrote; `file` is what complaints call it. Throws InputError.
 std::vector<Result> results_from_csv(const std::string& text, const std::filesystem::path& file);
 
-/// Results of parts of one matrix, in the order of its cells. Throws InputError if a cell is there twice or not at all.
+/// Results of parts of one matrix, in the order of its cells; of a cell that is in several parts, that of the last.
 std::vector<Result> merged(std::span<const Cell> cells, std::span<const std::vector<Result>> parts);
 
 }  // namespace eddy::stability

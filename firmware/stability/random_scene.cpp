@@ -2,34 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <random>
+#include "firmware/stability/draw.h"
 
 namespace eddy::stability {
 namespace {
 
-/// Draws from a seed alike everywhere: the distributions of the standard library are not.
-class Draw {
-  public:
-    explicit Draw(std::uint64_t seed) : random_(seed) {}
-
-    double share() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
-    bool chance(double p) { return share() < p; }
-    double between(double low, double high) { return low + (high - low) * share(); }
-    /// Every order of magnitude as likely.
-    double scale(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-    int whole(int low, int high) { return low + static_cast<int>(share() * (high - low + 1)); }
-    const char* word(std::initializer_list<const char*> words) {
-        return words.begin()[static_cast<std::size_t>(share() * static_cast<double>(words.size()))];
-    }
-    /// Components within +-most.
-    std::string vector(double most) {
-        return fmt::format("[{}, {}, {}]", between(-most, most), between(-most, most), between(-most, most));
-    }
-
-  private:
-    std::mt19937_64 random_;
-};
+/// Components within +-most, as a scene file has them.
+std::string vector(Draw& draw, double most) {
+    const glm::dvec3 v = draw.vector(most);
+    return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
 
 constexpr int kCells = 16;
 
@@ -54,7 +36,7 @@ std::string walls(Draw& draw, const Scales& s) {
             out += fmt::format("{} = {{ kind = \"inflow\", velocity_m_s = [{}, {}, {}] }}\n", sides[i],
                                velocity[0], velocity[1], velocity[2]);
         } else {
-            out += fmt::format("{} = \"{}\"\n", sides[i], draw.word({"slip", "no_slip"}));
+            out += fmt::format("{} = \"{}\"\n", sides[i], draw.one_of({"slip", "no_slip"}));
         }
     }
     return out;
@@ -94,19 +76,19 @@ std::string body(Draw& draw, const Scales& s, double density_kg_m3) {
     const auto place = [&] { return draw.between(-0.1, 1.1) * s.size_m; };
     std::string out = "[[body]]\n" + shape(draw, s);
     out += fmt::format("centre_m = [{}, {}, {}]\naxis = {}\nangle_deg = {}\n", place(), place(), place(),
-                       draw.vector(1.0), draw.between(-180.0, 180.0));
-    const std::string motion = draw.word({"fixed", "prescribed", "prescribed", "free"});
+                       vector(draw, 1.0), draw.between(-180.0, 180.0));
+    const std::string motion = draw.one_of({"fixed", "prescribed", "prescribed", "free"});
     out += fmt::format("motion = \"{}\"\n", motion);
     if (motion == "free")
         out += fmt::format("density_kg_m3 = {}\n", std::min(1e5, draw.scale(0.01, 100.0) * density_kg_m3));
     if (motion != "prescribed") return out;
-    if (draw.chance(0.5)) out += fmt::format("velocity_m_s = {}\n", draw.vector(s.speed_m_s));
+    if (draw.chance(0.5)) out += fmt::format("velocity_m_s = {}\n", vector(draw, s.speed_m_s));
     const bool spins = draw.chance(0.3);
-    if (spins) out += fmt::format("spin_rad_s = {}\n", draw.vector(draw.scale(0.1, 1.0) / s.dt_s));
+    if (spins) out += fmt::format("spin_rad_s = {}\n", vector(draw, draw.scale(0.1, 1.0) / s.dt_s));
     // Up to half a swing a step: the fastest that is still a swing.
     if (draw.chance(0.5))
         out += fmt::format("oscillation = {{ amplitude_m = {}, frequency_hz = {}, angle_deg = {} }}\n",
-                           draw.vector(draw.scale(0.001, 0.3) * s.size_m),
+                           vector(draw, draw.scale(0.001, 0.3) * s.size_m),
                            std::min(1e4, draw.scale(0.001, 0.5) / s.dt_s),
                            spins ? 0.0 : draw.between(0.0, 90.0));
     return out;
@@ -120,18 +102,18 @@ std::string source(Draw& draw, const Scales& s, bool smoke, bool heat) {
     if (heat)
         out += fmt::format("temperature_k_per_s = {}\n", draw.between(-1.0, 1.0) * draw.scale(0.1, 1000.0));
     if (draw.chance(0.6) || !(smoke || heat))
-        out += fmt::format("velocity_m_s = {}\n", draw.vector(s.speed_m_s));
+        out += fmt::format("velocity_m_s = {}\n", vector(draw, s.speed_m_s));
     if (draw.chance(0.3)) out += fmt::format("stop_s = {}\n", draw.between(1.0, 200.0) * s.dt_s);
     return out;
 }
 
 std::string solver(Draw& draw, const Scales& s) {
-    const std::string preset = draw.word({"fast", "fast", "precise", "precise", "yang2009"});
+    const std::string preset = draw.one_of({"fast", "fast", "precise", "precise", "yang2009"});
     std::string out = fmt::format("[solver]\npreset = \"{}\"\ndt_s = {}\n", preset, s.dt_s);
     if (preset == "yang2009") return out;
     if (draw.chance(0.3)) out += fmt::format("cycles = {}\n", draw.whole(1, 4));
     if (draw.chance(0.3))
-        out += fmt::format("advection = \"{}\"\n", draw.word({"semi_lagrangian", "maccormack"}));
+        out += fmt::format("advection = \"{}\"\n", draw.one_of({"semi_lagrangian", "maccormack"}));
     if (draw.chance(0.1)) out += "time_order = 2\n";
     return out;
 }
@@ -148,7 +130,7 @@ std::string random_text(Draw& draw) {
     const bool heavy = draw.chance(0.6);
     if (heavy)
         out += draw.chance(0.7) ? "gravity_m_s2 = [0.0, -9.81, 0.0]\n"
-                                : fmt::format("gravity_m_s2 = {}\n", draw.vector(20.0));
+                                : fmt::format("gravity_m_s2 = {}\n", vector(draw, 20.0));
     // nu dt / h^2 from 1e-4 to 1e3.
     if (draw.chance(0.6))
         out += fmt::format("viscosity_pa_s = {}\n",

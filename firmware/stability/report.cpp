@@ -16,30 +16,80 @@ std::string seconds_of(const std::optional<double>& seconds) {
     return seconds ? fmt::format("{:.2f}", *seconds) : "-";
 }
 
-/// "green", or with how many red cells.
-std::string count_of(std::span<const Result> results, bool pairs) {
-    long all = 0, green = 0;
+/// "114 of 150", green of those that were tried, and how many were not.
+std::string count_of(std::span<const Cell> cells, std::span<const Result> results, bool pairs) {
+    long tried = 0, green = 0, all = 0;
+    for (const Cell& cell : cells) all += (cell.cases.size() > 1) == pairs;
     for (const Result& result : results)
         if (is_pair(result) == pairs) {
-            ++all;
+            ++tried;
             green += result.outcome.verdict.pass;
         }
-    return fmt::format("{} of {}", green, all);
+    std::string text = fmt::format("{} of {}", green, tried);
+    if (tried < all) text += fmt::format(" ({} more not run)", all - tried);
+    return text;
 }
 
 /// Cells of the table of one case in the report: what a reader asks of it.
 std::string report_line(const Result& r) {
     const Verdict& v = r.outcome.verdict;
-    return fmt::format("| {} | {} | {} | {} | {} | {} | {:.2g} | {:.3g} | {} | {} | {:.1f} |\n", r.number,
-                       r.name, r.grid, r.effort, r.outcome.steps, v.pass ? "green" : "**red**",
+    return fmt::format("| {} | {} | {} | {} | {} | {} | {:.2g} | {:.3g} | {} | {} | {:.1f} | {} | {} |\n",
+                       r.number, r.name, r.grid, r.effort, r.outcome.steps, v.pass ? "green" : "**red**",
                        v.kinetic_energy_ratio, v.largest_force_n, seconds_of(v.recovery_s), v.non_finite,
-                       r.outcome.wall_s);
+                       r.outcome.wall_s, r.outcome.remark, r.tried);
+}
+
+/// A row for each case and a column for each grid and effort. A case about grids of its own has them in the last.
+std::string overview(std::span<const Cell> cells, std::span<const Result> results) {
+    std::vector<std::string> columns;
+    std::vector<const Case*> rows;
+    const auto column_of = [](const Cell& cell) {
+        return fmt::format("{} {}", grid_name(cell.trial.cells), to_word(cell.trial.effort));
+    };
+    bool own_grids = false;
+    for (const Cell& cell : cells) {
+        if (cell.cases.size() > 1) continue;
+        if (std::find(rows.begin(), rows.end(), cell.cases[0]) == rows.end()) rows.push_back(cell.cases[0]);
+        own_grids |= !cell.cases[0]->grids.empty();
+        if (!cell.cases[0]->grids.empty()) continue;
+        if (std::find(columns.begin(), columns.end(), column_of(cell)) == columns.end())
+            columns.push_back(column_of(cell));
+    }
+    std::string head = "| case | name |", line = "|---|---|", text;
+    for (const std::string& column : columns) {
+        head += fmt::format(" {} |", column);
+        line += "---|";
+    }
+    if (own_grids) {
+        head += " grids of its own |";
+        line += "---|";
+    }
+    const auto word = [&](const Cell& cell) {
+        const Result* result = find(results, cell);
+        return !result ? "not run" : result->outcome.verdict.pass ? "green" : "**red**";
+    };
+    for (const Case* row : rows) {
+        std::vector<std::string> words(columns.size());
+        std::string own;
+        for (const Cell& cell : cells) {
+            if (cell.cases.size() > 1 || cell.cases[0] != row) continue;
+            if (row->grids.empty())
+                words[static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column_of(cell)) -
+                                               columns.begin())] = word(cell);
+            else
+                own += fmt::format("{}{}: {}", own.empty() ? "" : ", ", column_of(cell), word(cell));
+        }
+        text += fmt::format("| {} | {} |", row->number, row->name);
+        for (const std::string& one : words) text += fmt::format(" {} |", one);
+        text += own_grids ? fmt::format(" {} |\n", own) : "\n";
+    }
+    return head + "\n" + line + "\n" + text;
 }
 
 constexpr const char* kReportHead =
     "| case | name | grid | effort | steps | | energy | force [N] | calm after [s] | not finite | took [s] "
-    "|\n"
-    "|---|---|---|---|---|---|---|---|---|---|---|\n";
+    "| figures | tried, version |\n"
+    "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 }  // namespace
 
@@ -68,18 +118,20 @@ std::string table_line(const Result& r) {
         r.grid, r.effort, r.outcome.steps, v.pass ? "green" : "RED", v.kinetic_energy_ratio,
         v.largest_force_n, seconds_of(v.recovery_s), v.non_finite, r.outcome.wall_s);
     if (!v.pass) text += fmt::format("     {}\n", v.reason);
+    if (!r.outcome.remark.empty()) text += fmt::format("     {}\n", r.outcome.remark);
     return text;
 }
 
-std::string summary_of(std::span<const Result> results) {
+std::string summary_of(std::span<const Cell> cells, std::span<const Result> results) {
     double wall_s = 0.0;
     for (const Result& result : results) wall_s += result.outcome.wall_s;
     return fmt::format("{} cells of single cases and {} of pairs are green; took {:.0f} s\n",
-                       count_of(results, false), count_of(results, true), wall_s);
+                       count_of(cells, results, false), count_of(cells, results, true), wall_s);
 }
 
-std::string report_of(std::span<const Result> results, const std::string& renderer,
-                      const std::string& machine, const std::vector<std::filesystem::path>& pictures) {
+std::string report_of(std::span<const Cell> cells, std::span<const Result> results,
+                      const std::string& renderer, const std::string& machine,
+                      const std::vector<std::filesystem::path>& pictures) {
     std::string text =
         "# Hard cases\n\n"
         "What must not blow up: the cases of `eddy stability`, each on several grids, with the solver at its "
@@ -87,7 +139,7 @@ std::string report_of(std::span<const Result> results, const std::string& render
         "(preset `precise`) and at its least (`fast`, one cycle). This page is written by the program; "
         "`script/report "
         "stability` makes it anew.\n\n";
-    text += fmt::format("{}Measured on {}; {}.\n\n", summary_of(results), renderer, machine);
+    text += fmt::format("{}Measured on {}; {}.\n\n", summary_of(cells, results), renderer, machine);
     text +=
         "A cell is green if all of this holds (`firmware/stability/rule.h`):\n\n"
         "- no texel, force or torque is nan or infinite;\n"
@@ -117,7 +169,7 @@ std::string report_of(std::span<const Result> results, const std::string& render
                                     r.outcome.verdict.reason);
         text += "\n";
     }
-    text += "## Single cases\n\n";
+    text += "## All of it\n\n" + overview(cells, results) + "\n## Single cases\n\n";
     text += kReportHead;
     for (const Result& r : results)
         if (!is_pair(r)) text += report_line(r);

@@ -1,6 +1,5 @@
 #include "firmware/stability/rig.h"
 
-#include "firmware/fluid_setup.h"
 #include "firmware/show.h"
 
 namespace eddy::stability {
@@ -9,8 +8,8 @@ namespace {
 /// The fluid alone, given whatever a case likes.
 class Steps final : public Rig {
   public:
-    Steps(gles::Gpu& gpu, const Scene& scene, ChangeBodies change)
-        : fluid_(gles::make_fluid(gpu, fluid_setup(scene))), motions_(scene), change_(std::move(change)) {
+    Steps(gles::Gpu& gpu, const Scene& scene, const gles::FluidSetup& setup, ChangeBodies change)
+        : fluid_(gles::make_fluid(gpu, setup)), motions_(scene), change_(std::move(change)) {
         loads_.resize(scene.bodies.size());
     }
 
@@ -93,9 +92,10 @@ class Exhibit final : public Rig {
 
 }  // namespace
 
-std::unique_ptr<Rig> make_rig(gles::Gpu& gpu, const Scene& scene, bool with_hand, ChangeBodies bodies) {
+std::unique_ptr<Rig> make_rig(gles::Gpu& gpu, const Scene& scene, const gles::FluidSetup& setup,
+                              bool with_hand, ChangeBodies bodies) {
     if (with_hand) return std::make_unique<Exhibit>(gpu, scene);
-    return std::make_unique<Steps>(gpu, scene, std::move(bodies));
+    return std::make_unique<Steps>(gpu, scene, setup, std::move(bodies));
 }
 
 }  // namespace eddy::stability

@@ -14,6 +14,8 @@ class Rig {
     virtual void step(const Moment& moment, const PoseSnapshot& hand, Instant now) = 0;
     /// Loads of that step, as they came back; one for each body, or the held body's alone.
     virtual std::vector<gles::Load> loads() = 0;
+    /// The same by other ways, where the scene asks for them; else empty.
+    std::vector<gles::ForceMethods> force_methods() const { return fluid().force_methods(); }
     /// What the hand may know.
     virtual FluidSnapshot answer() = 0;
     virtual const gles::Fluid& fluid() const = 0;
@@ -21,8 +23,10 @@ class Rig {
     virtual void change_preset() {}
 };
 
-/// `bodies`: see Case::bodies; of all cases that are tried at once.
+/// `setup`: of the scene; with a hand, the exhibit makes its own. `bodies`: see Case::bodies; of all cases that are tried at
+/// once.
 using ChangeBodies = std::function<void(const Moment&, std::vector<gles::BodyState>&)>;
-std::unique_ptr<Rig> make_rig(gles::Gpu& gpu, const Scene& scene, bool with_hand, ChangeBodies bodies);
+std::unique_ptr<Rig> make_rig(gles::Gpu& gpu, const Scene& scene, const gles::FluidSetup& setup,
+                              bool with_hand, ChangeBodies bodies);
 
 }  // namespace eddy::stability

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "firmware/fluid_setup.h"
 #include "firmware/show.h"
@@ -13,6 +14,12 @@
 
 namespace eddy::stability {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// Steps between looks into the fields: to bring them to the processor must not cost more than the step.
 long steps_between_looks(const glm::ivec3& n, long steps) {
@@ -26,9 +33,13 @@ struct Mixture {
     Scene scene;
     long steps;
     double calm_share = 1.0, narrowing = 1.0;
-    bool with_hand = false, puts_faults = false;
+    bool with_hand = false, puts_faults = false, looks_always = false;
     long pardon_steps = 0;
 };
+
+/// A case that compares itself with the common scene does so for so many steps: after them differences of rounding have grown
+/// by what flow there is.
+constexpr long kCompared = 60;
 
 Mixture mixture_of(std::span<const Case* const> cases, const Trial& trial, long most_steps) {
     Mixture all{common_scene(trial), cases.size() > 1 ? kStepsOfPair : cases.front()->steps};
@@ -40,6 +51,7 @@ Mixture mixture_of(std::span<const Case* const> cases, const Trial& trial, long 
         all.with_hand |= one->drive == Drive::Hand;
         wants_steps |= one->drive == Drive::Steps;
         all.puts_faults |= one->puts_faults;
+        all.looks_always |= one->looks_always;
         all.pardon_steps = std::max(all.pardon_steps, one->pardon_steps);
     }
     all.with_hand &= !wants_steps;
@@ -47,26 +59,35 @@ Mixture mixture_of(std::span<const Case* const> cases, const Trial& trial, long 
     return all;
 }
 
+gles::FluidSetup setup_of(std::span<const Case* const> cases, const Scene& scene) {
+    gles::FluidSetup setup = fluid_setup(scene);
+    for (const Case* one : cases)
+        if (one->solids) one->solids(setup);
+    return setup;
+}
+
 /// A trial under way.
 class Run {
   public:
     Run(gles::Gpu& gpu, std::span<const Case* const> cases, const Trial& trial, Mixture mixture)
-        : cases_(cases),
+        : gpu_(gpu),
+          cases_(cases),
           mixture_(std::move(mixture)),
-          setup_(fluid_setup(mixture_.scene)),
+          setup_(setup_of(cases, mixture_.scene)),
           gate_{.max_force_n = mixture_.scene.haptics.max_force_n},
           rule_(tank_of(setup_), {gate_.max_force_n, gate_.slew_n_per_s}),
-          ledger_(mixture_.scene, setup_, mixture_.narrowing),
+          between_looks_(mixture_.looks_always ? 1 : steps_between_looks(trial.cells, mixture_.steps)),
+          ledger_(mixture_.scene, setup_, mixture_.narrowing,
+                  between_looks_ == 1 ? Ledger::Inflow::Seen : Ledger::Inflow::Estimated),
           at_rest_(ledger_.at_rest()),
           hand_(orders_for(mixture_.scene, setup_), gate_),
-          rig_(make_rig(gpu, mixture_.scene, mixture_.with_hand,
+          rig_(make_rig(gpu, mixture_.scene, setup_, mixture_.with_hand,
                         [this](const Moment& moment, std::vector<gles::BodyState>& bodies) {
                             for (const Case* one : cases_)
                                 if (one->bodies) one->bodies(moment, bodies);
-                        })),
-          between_looks_(steps_between_looks(trial.cells, mixture_.steps)) {
+                        })) {
         if (mixture_.puts_faults) faults_.emplace(gpu);
-        if (cases_.size() == 1 && cases_[0]->watches_transport) transport_.emplace(gpu);
+        if (alone().watches_transport) transport_.emplace(gpu);
         history_.tank = tank_of(setup_);
         history_.gravity_m_s2 = glm::length(setup_.gravity_m_s2);
         history_.planned_steps = mixture_.steps;
@@ -79,10 +100,16 @@ class Run {
 
     /// What is red goes on, to show how far it goes; but numbers that are none only spread.
     bool goes_on() const {
-        return step_ < mixture_.steps && !(rule_.failed() && rule_.verdict().non_finite > 0);
+        const bool enough = rule_.failed() && (rule_.verdict().non_finite > 0 || alone().ends_when_red);
+        return step_ < mixture_.steps && !enough;
     }
     void step();
     Outcome outcome();
+    const History& history() const { return history_; }
+    void compare_with(const History& common) {
+        for (const History::Step& step : common.steps)
+            history_.common_n.push_back(step.loads.empty() ? glm::dvec3(0.0) : step.loads[0].force_n);
+    }
 
   private:
     Moment moment_now() const;
@@ -90,12 +117,19 @@ class Run {
     std::vector<gles::Load> loads() const;
     void judge_transport();
     void look(const Moment& moment);
+    /// What it wants besides the rule, and has to say; of two at once nothing can be asked.
+    const Case& alone() const {
+        static const Case nothing;
+        return cases_.size() == 1 ? *cases_[0] : nothing;
+    }
 
+    gles::Gpu& gpu_;
     std::span<const Case* const> cases_;
     Mixture mixture_;
     gles::FluidSetup setup_;
     GateLimits gate_;
     Rule rule_;
+    long between_looks_;
     Ledger ledger_;
     std::vector<gles::Load> at_rest_;
     Hand hand_;
@@ -103,9 +137,8 @@ class Run {
     std::optional<Faults> faults_;
     std::optional<TransportWatch> transport_;
     History history_;
-    long between_looks_;
     long step_ = 0, resets_ = 0, pardoned_until_ = 0;
-    double time_s_ = 0.0, calm_from_s_ = 0.0;
+    double time_s_ = 0.0, calm_from_s_ = 0.0, unseen_s_ = 0.0;
 };
 
 Moment Run::moment_now() const {
@@ -152,11 +185,15 @@ void Run::step() {
     hand_.tick(moment.dt_s, moment.hand_m, rig_->answer(), !moment.holds_answer, rule_, history_);
     const bool watched = transport_ && step_ % between_looks_ == 0;
     if (watched) transport_->begin_step(rig_->fluid());
+    const Clock::time_point start = Clock::now();
     rig_->step(moment, hand_.pose(), hand_.now());
+    const double wall_s = seconds_since(start);
     if (watched) judge_transport();
     time_s_ += std::max(0.0, moment.dt_s);
+    unseen_s_ += std::max(0.0, moment.dt_s);
     const std::vector<gles::BodyState>& bodies = rig_->fluid().bodies();
-    history_.steps.push_back({time_s_, moment.dt_s, moment.disturbs(), resets_, loads(), bodies});
+    history_.steps.push_back(
+        {time_s_, moment.dt_s, moment.disturbs(), resets_, loads(), bodies, rig_->force_methods(), wall_s});
     const std::vector<gles::Load>& felt = history_.steps.back().loads;
     // With a hand only its own load comes back: what other bodies do is then counted by their speed.
     ledger_.add(time_s_, moment.dt_s, bodies,
@@ -173,6 +210,9 @@ void Run::look(const Moment& moment) {
     if (looks) {
         fields = download(rig_->fluid());
         history_.looks.push_back(look_at(history_.tank, *fields, step_));
+        if (const auto& measure = alone().measure)
+            history_.looks.back().measured = measure(gpu_, rig_->fluid(), *fields, time_s_);
+        ledger_.add_fields(std::exchange(unseen_s_, 0.0), *fields);
     }
     rule_.see({.step = step_ + 1,
                .time_s = time_s_,
@@ -185,24 +225,31 @@ void Run::look(const Moment& moment) {
 
 Outcome Run::outcome() {
     Outcome outcome{step_, rule_.verdict()};
-    // A criterion is about what happened to the end.
-    if (outcome.verdict.pass && cases_.size() == 1 && cases_[0]->complaint && step_ == mixture_.steps)
-        if (const auto complaint = cases_[0]->complaint(history_)) {
+    if (step_ < mixture_.steps) return outcome;  // a criterion is about what happened to the end
+    if (outcome.verdict.pass && alone().complaint)
+        if (const auto complaint = alone().complaint(history_)) {
             rule_.blame(step_, *complaint);
             outcome.verdict = rule_.verdict();
         }
+    if (alone().remark) outcome.remark = alone().remark(history_);
     return outcome;
 }
 
 }  // namespace
 
 Outcome try_out(gles::Gpu& gpu, std::span<const Case* const> cases, const Trial& trial, long most_steps) {
-    using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
     Outcome outcome;
     long steps = 0;
     try {
         Run run(gpu, cases, trial, mixture_of(cases, trial, most_steps));
+        if (cases.size() == 1 && cases[0]->compares) {
+            const Case common{.name = "common", .drive = cases[0]->drive, .steps = cases[0]->steps};
+            const Case* const alone[] = {&common};
+            Run reference(gpu, alone, trial, mixture_of(alone, trial, most_steps));
+            for (long n = 0; n < kCompared && reference.goes_on(); ++n) reference.step();
+            run.compare_with(reference.history());
+        }
         for (; run.goes_on(); ++steps) run.step();
         outcome = run.outcome();
     } catch (const std::exception& e) {
@@ -211,7 +258,7 @@ Outcome try_out(gles::Gpu& gpu, std::span<const Case* const> cases, const Trial&
         outcome.verdict.pass = false;
         outcome.verdict.reason = fmt::format("step {}: {}", steps + 1, e.what());
     }
-    outcome.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+    outcome.wall_s = seconds_since(start);
     return outcome;
 }
 

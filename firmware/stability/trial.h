@@ -10,6 +10,7 @@ namespace eddy::stability {
 struct Outcome {
     long steps = 0;  ///< taken; fewer than planned after a failure
     Verdict verdict = {};
+    std::string remark = {};  ///< what the case has to say of itself; of one alone
     double wall_s = 0.0;
 };
 

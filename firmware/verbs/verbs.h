@@ -67,15 +67,18 @@ struct StabilityOptions {
     std::vector<std::string> merge;  ///< folders of all parts, to be put together
     std::string out;                 ///< folder for CSV, report and picture; empty: none
     std::optional<int> fuzz;         ///< in place of the cases: so many random scenes
-    std::uint64_t seed = 1;          ///< of the first of them
+    std::optional<int> hands;        ///< in place of the cases: so many random hands
+    std::uint64_t seed = 1;          ///< of the first of these or those
     std::optional<long> endless;     ///< in place of the cases: a scene for so many steps
-    std::string scene = "stir";      ///< for that: shipped scene or file
+    std::string scene;               ///< for that, and for hands: shipped scene or file; empty: "stir"
     std::vector<std::string> set;    ///< "key=value" over its file
 };
 /// 1 too if a cell is red.
 int test_stability(const StabilityOptions& options);
 /// 1 too if a scene broke the rule.
 int fuzz_scenes(const StabilityOptions& options);
+/// 1 too if a hand was given what it must not be given.
+int fuzz_hands(const StabilityOptions& options);
 /// 1 too if something drifts.
 int run_endlessly(const StabilityOptions& options);
 

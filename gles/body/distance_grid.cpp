@@ -45,6 +45,12 @@ DistanceGrid::DistanceGrid(const TriangleMesh& mesh, int nodes, double padding_m
         }
 }
 
+DistanceGrid DistanceGrid::scaled(double times) const {
+    DistanceGrid wrong = *this;
+    for (float& distance : wrong.distances_) distance *= static_cast<float>(times);
+    return wrong;
+}
+
 double DistanceGrid::depth_m() const {
     return -spacing_m_ * static_cast<double>(*std::min_element(distances_.begin(), distances_.end()));
 }

@@ -19,6 +19,9 @@ class DistanceGrid {
     /// free; with padding of two cells of the fluid, the fluid only ever uses distances from inside the box.
     explicit DistanceGrid(const TriangleMesh& mesh, int nodes = 64, double padding_m = 0.0);
 
+    /// The same with distances that are none: so many times what they are. For the laboratory.
+    DistanceGrid scaled(double times) const;
+
     /// [m], at x in the mesh's frame.
     double at(const glm::dvec3& x_m) const;
 

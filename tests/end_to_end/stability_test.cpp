@@ -41,8 +41,9 @@ TEST(Stability, PartsPutTogetherAreTheWhole) {
     EXPECT_THAT(read_all(folder / "all/report.md"),
                 HasSubstr("| 28 | millimetres | 9^3 | least | 60 | green |"));
     const Ended half = eddy(small_matrix(folder / "half", {"--merge", folder / "1"}));
-    EXPECT_EQ(half.status, 2);
-    EXPECT_THAT(half.err, HasSubstr("none of these folders holds"));
+    EXPECT_EQ(half.status, 1);
+    EXPECT_THAT(half.out, HasSubstr("2 of 2 (2 more not run) cells of single cases"));
+    EXPECT_THAT(read_all(folder / "half/report.md"), HasSubstr("| 28 | millimetres | green | not run |"));
 }
 
 TEST(Stability, ARunThatWasCutShortGoesOn) {
@@ -74,6 +75,30 @@ TEST(Stability, SaysWhatIsWrongWithAnOrder) {
     EXPECT_THAT(eddy({"stability", "--case", "pistn"}).err, HasSubstr("nearest first: \"piston\""));
     EXPECT_THAT(eddy({"stability", "--grid", "2"}).err, HasSubstr("write a grid as"));
     EXPECT_THAT(eddy({"stability", "--resume"}).err, HasSubstr("--out"));
+}
+
+TEST(Stability, SaysWhatGoesWithWhat) {
+    const auto refused = [](const std::vector<std::string>& arguments) {
+        const Ended ended = eddy(arguments);
+        EXPECT_EQ(ended.status, 2);
+        return ended.err;
+    };
+    EXPECT_THAT(refused({"stability", "--fuzz", "1", "--case", "stall"}),
+                HasSubstr("--case does not go with --fuzz, which takes --seed, --out"));
+    EXPECT_THAT(refused({"stability", "--endless", "9", "--grid", "8"}),
+                HasSubstr("--grid does not go with --endless, which takes --scene, --set, --out"));
+    EXPECT_THAT(refused({"stability", "--hands", "1", "--out", "x"}),
+                HasSubstr("--out does not go with --hands"));
+    EXPECT_THAT(refused({"stability", "--hands", "1", "--fuzz", "1"}), HasSubstr("one at a time"));
+    EXPECT_THAT(refused({"stability", "--seed", "3"}), HasSubstr("--seed goes with --fuzz or --hands only"));
+    EXPECT_THAT(refused({"stability", "--scene", "jet"}), HasSubstr("--hands or --endless only"));
+}
+
+TEST(Stability, ARandomHandIsTheSameHandAgain) {
+    const Ended once = eddy({"stability", "--hands", "1", "--seed", "7"});
+    EXPECT_EQ(once.status, 0) << once.out << once.err;
+    EXPECT_THAT(once.out, HasSubstr("0 of 1 random hands, 4 s each, broke the rule"));
+    EXPECT_EQ(eddy({"stability", "--hands", "1", "--seed", "7"}).out, once.out);
 }
 
 /// Rows that are red on the quick matrix, as docs/stability.md says and why. Whoever mends one takes it off.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -127,6 +128,58 @@ TEST(Criterion, ALineBesideThoseOfTheMotionIsFound) {
     };
     EXPECT_FALSE(no_other_lines(10.0)(shaken(0.04)));
     EXPECT_TRUE(no_other_lines(10.0)(shaken(0.06)));
+}
+
+/// A ball of a fifth of a tank of 8 cells of 0.1 m comes in through a wall at 1 m/s; the force rises by 1 N over so many steps.
+History coming_in(double rises_in_steps) {
+    History history;
+    history.tank.cell_m = 0.1;
+    for (int n = 0; n < 100; ++n) {
+        const double x = -0.3 + 0.01 * n;  // wholly in from step 46 on
+        const double force = std::clamp((n - 20) / rises_in_steps, 0.0, 1.0);
+        history.steps.push_back({.time_s = 0.01 * n,
+                                 .dt_s = 0.01,
+                                 .loads = {{{force, 0.0, 0.0}, {}}},
+                                 .bodies = {{.centre_m = {x, 0.4, 0.4}}}});
+    }
+    return history;
+}
+
+TEST(Criterion, ABallThatComesBackMayPushOnlyAsItComesIn) {
+    EXPECT_FALSE(returns_smoothly()(coming_in(16.0)));
+    EXPECT_TRUE(returns_smoothly()(coming_in(4.0)));
+    // Going out again it may.
+    History out = coming_in(4.0);
+    for (History::Step& step : out.steps) step.bodies[0].centre_m.x = 0.4 - step.time_s;
+    EXPECT_FALSE(returns_smoothly()(out));
+}
+
+TEST(Criterion, ForcesThatTheFluidsMomentumDoesNotExplainAreFound) {
+    History history = with_force(20, [](double) { return 1.0; });
+    for (History::Step& step : history.steps) {
+        step.loads.push_back({{-1.0, 0.0, 0.0}, {}});
+        step.methods = {{.box_n = {1.5, 0.0, 0.0}}, {.box_n = {-1.5, 0.0, 0.0}}};
+    }
+    EXPECT_FALSE(forces_balance(1e-3)(history)) << "what one gives the other is between them";
+    history.steps[7].methods[0].box_n.x += 0.01;
+    EXPECT_TRUE(forces_balance(1e-3)(history));
+    EXPECT_EQ(remark_on_balance()(history), "forces and the fluid's momentum agree within 0.005 of the peak");
+}
+
+TEST(Criterion, AForceInOtherUnitsIsComparedWithThatOfTheCommonScene) {
+    History history = with_force(20, [](double t) { return 1e-9 * t; });
+    for (const History::Step& step : history.steps) history.common_n.push_back(1e9 * step.loads[0].force_n);
+    EXPECT_FALSE(same_as_common(1e-9, 1e-5)(history));
+    history.common_n[5].x += 1e-5;
+    EXPECT_TRUE(same_as_common(1e-9, 1e-5)(history));
+    EXPECT_TRUE(same_as_common(1e-8, 1e-5)(history));
+}
+
+TEST(Remark, SaysWhatStepsTakeWhenNumbersAreSmall) {
+    History history = with_force(100, [](double) { return 1.0; });
+    for (std::size_t n = 0; n < 100; ++n) history.steps[n].wall_s = n < 20 ? 0.01 : 0.015;
+    EXPECT_EQ(remark_on_time()(history),
+              "a step of the last fifth takes 1.50 times as long as one of the first");
 }
 
 TEST(Criterion, OfAllTheFirstThatFailsIsNamed) {

@@ -104,6 +104,33 @@ TEST(Ledger, ConfinementMaySpreadWhatIsThereAtTheStart) {
     }
 }
 
+/// A stream of 1 m/s in at x low and out at x high, in every cell, against a pressure of 3 Pa.
+Fields stream() {
+    return {std::vector<glm::vec3>(9 * 9 * 9, glm::vec3(1.0f, 0.0f, 0.0f)),
+            std::vector<float>(8 * 8 * 8, 3.0f),
+            {},
+            {}};
+}
+
+TEST(Ledger, WhereFieldsAreSeenCountsWhatTheStreamReallyBringsIn) {
+    const Scene scene = scene_of(
+        "[tank.walls]\nx_low = { kind = \"inflow\", velocity_m_s = [1.0, 0.0, 0.0] }\nx_high = \"open\"\n");
+    Ledger seen(scene, fluid_setup(scene), 4.0, Ledger::Inflow::Seen);
+    seen.add(0.1, 0.1, {}, {});
+    EXPECT_EQ(seen.justified().work_j, 0.0);
+    seen.add_fields(0.1, stream());
+    EXPECT_NEAR(seen.justified().work_j, 0.1 * (3.0 + 0.5 * 2.0), 1e-6);  // of 1 m2
+    EXPECT_DOUBLE_EQ(seen.justified().speed_m_s, 1.0);
+    Ledger estimated(scene, fluid_setup(scene), 4.0);
+    estimated.add(0.1, 0.1, {}, {});
+    EXPECT_GT(estimated.justified().work_j, 1.0) << "all of the tank may have been set going";
+}
+
+TEST(Ledger, WhereTheTankIsOpenItsFluidMayFall) {
+    const Scene scene = scene_of("gravity_m_s2 = [0.0, -10.0, 0.0]\n[tank.walls]\ny_low = \"open\"\n");
+    EXPECT_NEAR(Ledger(scene, fluid_setup(scene)).justified().speed_m_s, std::sqrt(20.0), 1e-9);
+}
+
 TEST(Ledger, BuoyancyJustifiesTheFallOfWhatIsHeavier) {
     const Scene scene =
         scene_of("gravity_m_s2 = [0.0, -10.0, 0.0]\n[smoke]\nweight = 0.1\ninitial = \"0.5 * y\"\n");

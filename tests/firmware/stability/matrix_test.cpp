@@ -32,7 +32,8 @@ TEST(HardMatrix, FullHasEveryPairOfCasesThatAreNotTooLong) {
     std::size_t single = 0, pairs = 0;
     for (const Case& one : all_cases())
         single += !one.alone && one.grids.empty() && !one.full_only && one.steps <= 1500;
-    for (const Cell& cell : cells_of({.extent = Extent::Full})) pairs += cell.cases.size() == 2;
+    for (const Cell& cell : cells_of({.extent = Extent::Full}))
+        pairs += cell.cases.size() == 2 && cell.trial.cells == glm::ivec3(25);
     EXPECT_EQ(pairs, single * (single - 1) / 2);
 }
 
@@ -54,7 +55,11 @@ Result a_result(const char* name, bool pass) {
             name,
             "8^3",
             "least",
-            {500, {pass, pass ? "" : "step 3: a \"bad\", long reason", 0.5, 1e-5, 0.25, 0}, 1.5}};
+            {500,
+             {pass, pass ? "" : "step 3: a \"bad\", long reason", 0.5, 1e-5, 0.25, 0},
+             "half, at least",
+             1.5},
+            "2026-11-22, 0.1"};
 }
 
 TEST(HardMatrix, ItsCsvReadsBack) {
@@ -64,6 +69,8 @@ TEST(HardMatrix, ItsCsvReadsBack) {
     ASSERT_EQ(back.size(), 2u);
     EXPECT_EQ(back[1].outcome.verdict.reason, results[1].outcome.verdict.reason);
     EXPECT_EQ(back[1].outcome.verdict.recovery_s, 0.25);
+    EXPECT_EQ(back[1].outcome.remark, "half, at least");
+    EXPECT_EQ(back[1].tried, "2026-11-22, 0.1");
     EXPECT_EQ(csv_of(back), text);
     EXPECT_EQ(complaint_about([&] { results_from_csv("nonsense", "x.csv"); }),
               "x.csv: is not what eddy stability writes");
@@ -71,25 +78,43 @@ TEST(HardMatrix, ItsCsvReadsBack) {
               "x.csv:4: is not what eddy stability writes");
 }
 
-TEST(HardMatrix, PartsAreMergedOnlyIfTheyAreAllThereOnce) {
+TEST(HardMatrix, OfACellThatIsInSeveralPartsTheLastCounts) {
     const std::vector<Cell> cells = cells_of({.cases = {"2"}, .grids = {"8"}});
     std::vector<Result> all;
     for (const Cell& cell : cells) all.push_back(result_of(cell, {}));
-    const std::vector<std::vector<Result>> parts{{all[1], all[3]}, {all[0], all[2]}};
+    Result again = all[2];
+    again.outcome.steps = 7;
+    const std::vector<std::vector<Result>> parts{{all[1], all[3]}, {all[0], all[2]}, {again}};
     const std::vector<Result> together = merged(cells, parts);
     ASSERT_EQ(together.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(together[i].is_of(cells[i]));
-    const std::vector<std::vector<Result>> some{{all[1]}}, twice{all, {all[2]}};
-    EXPECT_THAT(complaint_about([&] { merged(cells, some); }),
-                HasSubstr("none of these folders holds stall on 8^3"));
-    EXPECT_THAT(complaint_about([&] { merged(cells, twice); }), HasSubstr("is there 2 times"));
+    EXPECT_EQ(together[2].outcome.steps, 7);
+    EXPECT_EQ(merged(cells, std::vector<std::vector<Result>>{{all[1]}}).size(), 1u);
 }
 
-TEST(HardMatrix, ItsReportNamesWhatIsRedAndWhy) {
+TEST(HardMatrix, SmallGridsAndWhatWasRedComeFirst) {
+    const std::vector<Cell> cells =
+        cells_of({.cases = {"stall+cup", "stall", "jitter"}, .grids = {"9", "8"}});
+    ASSERT_EQ(cells.size(), 10u);
+    std::vector<std::string> order;
+    for (const std::size_t i : telling_first(cells, std::vector{a_result("jitter", false)}))
+        order.push_back(cells[i].name() + " " + grid_name(cells[i].trial.cells));
+    const std::vector<std::string> wanted{"jitter 8^3",    "jitter 8^3",   "stall 8^3",  "stall 8^3",
+                                          "stall+cup 8^3", "jitter 9^3",   "jitter 9^3", "stall 9^3",
+                                          "stall 9^3",     "stall+cup 9^3"};
+    EXPECT_EQ(order, wanted);
+}
+
+TEST(HardMatrix, ItsReportNamesWhatIsRedAndWhyAndWhatWasNotRun) {
+    const std::vector<Cell> cells = cells_of({.cases = {"stall", "jitter", "grid-9^3"}, .grids = {"8", "9"}});
     const std::vector<Result> results{a_result("stall", true), a_result("jitter", false)};
-    const std::string report = report_of(results, "a renderer", "a machine", {"folder/heat_map.png"});
+    const std::string report = report_of(cells, results, "a renderer", "a machine", {"folder/heat_map.png"});
     EXPECT_THAT(report, HasSubstr("| 2 | jitter | 8^3 | least | step 3: a \"bad\", long reason |"));
-    EXPECT_THAT(report, HasSubstr("1 of 2 cells of single cases"));
+    EXPECT_THAT(report, HasSubstr("1 of 2 (8 more not run) cells of single cases"));
+    EXPECT_THAT(report, HasSubstr("| 2 | stall | not run | green | not run | not run |  |"));
+    EXPECT_THAT(report,
+                HasSubstr("| 27 | grid-9^3 |  |  |  |  | 9^3 default: not run, 9^3 least: not run |"));
+    EXPECT_THAT(report, HasSubstr("| half, at least | 2026-11-22, 0.1 |"));
     EXPECT_THAT(report, HasSubstr("](heat_map.png)"));
     EXPECT_THAT(table_line(results[1]), HasSubstr("RED"));
     EXPECT_THAT(heat_map_of(results, "folder").commands, HasSubstr("'jitter' 1"));

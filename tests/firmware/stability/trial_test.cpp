@@ -1,6 +1,7 @@
 #include "firmware/stability/trial.h"
 #include "firmware/stability/transport_watch.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -83,6 +84,54 @@ TEST_F(TrialTest, AskedForACriterionItSaysWhatIsWrong) {
                         return std::optional("I have seen " + std::to_string(history.steps.size()));
                     }});
     EXPECT_EQ(outcome.verdict.reason, "step 20: I have seen 20");
+}
+
+TEST_F(TrialTest, ACaseMaySayAFigureOfItsOwn) {
+    const Outcome outcome = outcome_of(
+        {.name = "curious",
+         .measure =
+             [](gles::Gpu&, const gles::Fluid& fluid, const Fields& fields, double time_s) {
+                 return time_s * static_cast<double>(fields.pressure_pa.size()) * fluid.setup().cell_m;
+             },
+         .remark =
+             [](const History& history) { return fmt::format("{:.4f}", history.looks.back().measured); }});
+    EXPECT_EQ(outcome.remark, fmt::format("{:.4f}", 20 * 0.02 * 512 * 0.02));
+}
+
+TEST_F(TrialTest, ACaseMayCompareItselfWithTheCommonScene) {
+    std::size_t compared = 0;
+    double apart = -1.0;
+    outcome_of({.name = "twin",
+                .complaint = [&](const History& history) -> std::optional<std::string> {
+                    compared = history.common_n.size();
+                    apart = 0.0;
+                    for (std::size_t n = 0; n < compared; ++n)
+                        apart = std::max(
+                            apart, glm::length(history.common_n[n] - history.steps[n].loads[0].force_n));
+                    return {};
+                },
+                .compares = true});
+    EXPECT_EQ(compared, 20u);
+    EXPECT_EQ(apart, 0.0) << "bit for bit";
+}
+
+TEST_F(TrialTest, EndsWhenItIsRedIfNobodyWantsToKnowMore) {
+    const Outcome outcome = outcome_of({.name = "spill",
+                                        .script =
+                                            [](Moment& m) {
+                                                if (m.step == 5) m.faults = {{Fault::Place::Smoke, 7.0f}};
+                                            },
+                                        .ends_when_red = true,
+                                        .puts_faults = true});
+    EXPECT_EQ(outcome.steps, 6);
+}
+
+TEST_F(TrialTest, SolidsMayBeWhatNoSceneCanSay) {
+    for (const char* name : {"distance-tenfold", "distance-tenth", "self-crossing"}) {
+        const Outcome outcome = outcome_of(*cases_named(name).front());
+        EXPECT_TRUE(outcome.verdict.pass) << name << ": " << outcome.verdict.reason;
+        EXPECT_THAT(outcome.remark, HasSubstr("its surface is off by")) << name;
+    }
 }
 
 TEST_F(TrialTest, AProgramThatGivesUpIsARedCell) {
