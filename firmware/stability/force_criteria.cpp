@@ -193,6 +193,7 @@ Criterion returns_smoothly() {
             const History::Step &last = history.steps[n - 1], &now = history.steps[n];
             if (now.bodies.empty() || now.loads.empty()) return {};
             const double way = out_m(last) - out_m(now);
+            if (!now.disturbed) return {};  // it has stopped at once
             if (way <= 0.0 || out_m(now) < -2.0 * radius) continue;
             const double jump = glm::length(now.loads[0].force_n - last.loads[0].force_n);
             const double most = kSlew * way / radius * peak;

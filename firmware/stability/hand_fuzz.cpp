@@ -32,7 +32,7 @@ HandFuzzFigures play_random_hand(gles::Gpu& gpu, const Scene& scene, std::uint64
     RandomHand hand(seed);
     SteppedExhibit exhibit(gpu, scene, &hand);
     HapticOrders orders = exhibit.orders();
-    orders.gain *= draw.scale(0.1, 1000.0);
+    orders.gain *= draw.scale(1.0, 1e4);
     exhibit.order(orders);
 
     const Tank tank = tank_of(exhibit.show().fluid().setup());

@@ -19,7 +19,7 @@ void RandomHand::begin_act(Instant now) {
     using enum Act;
     act_ = draw_.one_of({Rests, Stirs, Stirs, Stirs, Trembles, Darts, Leaps, Nonsense, Silent, Away});
     began_ = now;
-    ends_ = now + std::chrono::duration_cast<Instant>(Seconds(draw_.scale(0.01, 0.6)));
+    ends_ = now + std::chrono::duration_cast<Instant>(Seconds(draw_.scale(0.01, 2.0)));
     from_m_ = at_m_;
     swing_m_ = draw_.vector(kReachM) - (act_ == Trembles ? glm::dvec3(0.0) : from_m_);
     if (act_ == Trembles) swing_m_ *= 0.3;

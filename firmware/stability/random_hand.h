@@ -7,7 +7,7 @@
 
 namespace eddy::stability {
 
-/// A hand that the seed decides, on a device that does as it likes. Acts of 10 ms to 0.6 s follow each other: the handle rests,
+/// A hand that the seed decides, on a device that does as it likes. Acts of 10 ms to 2 s follow each other: the handle rests,
 /// stirs, trembles, darts, leaps, or is at places that are none (nan, infinite, 1e30 m); the device is silent, or away.
 class RandomHand final : public HapticDevice {
   public:

@@ -10,8 +10,11 @@ namespace {
 
 using FuzzTest = gles::GlTest;
 
-/// Seeds whose scenes break the rule, and how. Whoever mends one takes it off.
-const std::set<std::uint64_t> kKnownRed{};
+/// Seeds whose scenes break the rule. Whoever mends one takes it off.
+const std::set<std::uint64_t> kKnownRed{
+    25,      // a torus closes a pocket: 82 times as fast as what moves it
+    26, 29,  // 1.02 and 1.14 times the energy that the books know of
+};
 
 // `eddy stability --fuzz 1000` tries more.
 TEST_F(FuzzTest, FiftyRandomScenesKeepTheRule) {

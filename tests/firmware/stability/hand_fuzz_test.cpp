@@ -27,7 +27,7 @@ TEST_F(HandFuzzTest, NoRandomHandGetsAForceItMustNotGet) {
     }
     // Else the fuzz would look into one corner only.
     EXPECT_EQ(reasons.size(), kGateSentences.size());
-    EXPECT_GT(most_n, 0.5 * kDeviceMaxForceN);
+    EXPECT_GT(most_n, 0.5 * coarse().haptics.max_force_n);
 }
 
 TEST_F(HandFuzzTest, TheSameSeedIsTheSameHand) {
