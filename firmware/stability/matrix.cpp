@@ -81,9 +81,10 @@ std::vector<glm::ivec3> grids_for(const std::vector<const Case*>& row, const Ord
         return own;
     }
     if (!grids.empty()) return grids;
-    if (order.extent == Extent::Quick) return {glm::ivec3(8)};
-    if (row.size() > 1 && is_quick_pair(row)) return {glm::ivec3(8), glm::ivec3(25)};
+    if (row.size() > 1 && order.extent != Extent::Quick && is_quick_pair(row))
+        return {glm::ivec3(8), glm::ivec3(25)};
     if (row.size() > 1) return {glm::ivec3(25)};
+    if (order.extent == Extent::Quick) return {glm::ivec3(8)};
     if (order.extent == Extent::Usual || row.front()->small_only) return {glm::ivec3(8), glm::ivec3(25)};
     return {glm::ivec3(8), glm::ivec3(25), glm::ivec3(33, 47, 29), glm::ivec3(64)};
 }

@@ -106,7 +106,7 @@ const std::set<std::string> kKnownRed{
     // the volume of the fluid changes, or has nowhere to go: no pressure solves that
     "corner",
     // a start at once is more than the cycles solve
-    "plate-turning", "inflow-20hz", "jet-against-inflow",
+    "inflow-20hz", "jet-against-inflow",
     // bodies that overlap; confinement of a flow that nothing drives
     "cross-through", "confinement-20"};
 
