@@ -334,8 +334,7 @@ std::string Falcon::describe() const {
             case Step::Probing:
                 if (!loaded_ && settings_.firmware_image.empty())
                     return "no firmware runs in it and none is set: give the path of Novint's firmware image "
-                           "in the "
-                           "setting firmware_image";
+                           "in falcon.firmware";
                 return "asking whether its firmware runs";
             case Step::Booting:
                 return boot_.uploading() ? "uploading the firmware"

@@ -115,7 +115,7 @@ TEST(FalconBoot, SaysWhichSettingIsMissingWithoutFirmware) {
     Rig rig(cold());
     rig.run(2000);
     EXPECT_EQ(rig.driver->state(), HapticState::Booting);
-    EXPECT_THAT(rig.driver->describe(), HasSubstr("firmware_image"));
+    EXPECT_THAT(rig.driver->describe(), HasSubstr("falcon.firmware"));
 }
 
 TEST(FalconBoot, RefusesAFileThatIsNoFirmware) {
