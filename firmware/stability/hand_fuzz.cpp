@@ -30,7 +30,8 @@ Justified anything() {
 HandFuzzFigures play_random_hand(gles::Gpu& gpu, const Scene& scene, std::uint64_t seed, Seconds duration) {
     Draw draw(~seed);
     RandomHand hand(seed);
-    SteppedExhibit exhibit(gpu, scene, &hand);
+    const ForceFilterSettings open{.lowest_cutoff_hz = 500.0, .highest_cutoff_hz = 500.0, .impulse_n = 1e3};
+    SteppedExhibit exhibit(gpu, scene, &hand, seed % 2 == 0 ? open : ForceFilterSettings{});
     HapticOrders orders = exhibit.orders();
     orders.gain *= draw.scale(1.0, 1e4);
     exhibit.order(orders);
@@ -70,6 +71,7 @@ HandFuzzFigures play_random_hand(gles::Gpu& gpu, const Scene& scene, std::uint64
                   .fields = &fields});
     }
     figures.violation = rule.verdict().reason;
+    figures.gate = exhibit.report().gate;
     return figures;
 }
 

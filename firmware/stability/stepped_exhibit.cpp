@@ -4,11 +4,12 @@
 
 namespace eddy::stability {
 
-SteppedExhibit::SteppedExhibit(gles::Gpu& gpu, const Scene& scene, HapticDevice* hand)
+SteppedExhibit::SteppedExhibit(gles::Gpu& gpu, const Scene& scene, HapticDevice* hand,
+                               const ForceFilterSettings& filter)
     : show_(gpu, scene, exchange_), orders_(orders_for(scene, show_.fluid().setup())) {
     order(orders_);
     if (!hand) return;
-    HapticLoopSettings settings;
+    HapticLoopSettings settings{.filter = filter};
     settings.gate.max_force_n = std::min(settings.gate.max_force_n, scene.haptics.max_force_n);
     loop_.emplace(*hand, exchange_, trace_, settings);
 }

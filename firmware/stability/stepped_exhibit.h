@@ -12,7 +12,8 @@ namespace eddy::stability {
 class SteppedExhibit {
   public:
     /// `hand` may be null: nobody is there. It must outlive this.
-    SteppedExhibit(gles::Gpu& gpu, const Scene& scene, HapticDevice* hand);
+    SteppedExhibit(gles::Gpu& gpu, const Scene& scene, HapticDevice* hand,
+                   const ForceFilterSettings& filter = {});
 
     /// What the loop is told from now on.
     void order(const HapticOrders& orders) { exchange_.orders.publish(orders); }
@@ -26,6 +27,7 @@ class SteppedExhibit {
     const std::vector<TickRecord>& ticks();
     /// The newest answer of the fluid.
     FluidSnapshot answer() { return exchange_.fluid.newest(); }
+    const LoopReport& report() { return exchange_.report.newest(); }
     const Show& show() const { return show_; }
 
   private:

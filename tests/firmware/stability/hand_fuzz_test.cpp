@@ -17,6 +17,7 @@ Scene coarse() {
 TEST_F(HandFuzzTest, NoRandomHandGetsAForceItMustNotGet) {
     std::set<GateReason> reasons;
     double most_n = 0.0;
+    std::uint64_t clamped = 0, slewed = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const HandFuzzFigures figures = play_random_hand(gpu, coarse(), seed, Seconds(4.0));
         EXPECT_EQ(figures.violation, "") << "again: eddy stability --hands 1 --seed " << seed;
@@ -24,10 +25,14 @@ TEST_F(HandFuzzTest, NoRandomHandGetsAForceItMustNotGet) {
         EXPECT_GT(figures.steps, 50);
         most_n = std::max(most_n, figures.most_n);
         reasons.insert(figures.reasons.begin(), figures.reasons.end());
+        clamped += figures.gate.clamped;
+        slewed += figures.gate.slewed;
     }
     // Else the fuzz would look into one corner only.
     EXPECT_EQ(reasons.size(), kGateSentences.size());
     EXPECT_GT(most_n, 0.5 * coarse().haptics.max_force_n);
+    EXPECT_GT(clamped, 100u);
+    EXPECT_GT(slewed, 100u);
 }
 
 TEST_F(HandFuzzTest, TheSameSeedIsTheSameHand) {
