@@ -21,8 +21,8 @@ std::string describe_machine() {
     return fmt::format("{}, {} cores, {:.0f} GB", model, std::thread::hardware_concurrency(), bytes / 1e9);
 }
 
-std::string today() {
-    return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
+std::string date_and_time() {
+    return fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)));
 }
 
 }  // namespace eddy

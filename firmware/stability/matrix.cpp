@@ -168,7 +168,7 @@ Result result_of(const Cell& cell, const Outcome& outcome) {
             grid_name(cell.trial.cells),
             std::string(to_word(cell.trial.effort)),
             outcome,
-            today() + ", " EDDY_VERSION};
+            date_and_time() + ", " EDDY_VERSION};
 }
 
 const Result* find(std::span<const Result> results, const Cell& cell) {

@@ -39,7 +39,7 @@ struct Result {
     std::string grid = {};
     std::string effort = {};
     Outcome outcome = {};
-    std::string tried = {};  ///< day and version: "2026-11-22, 0.1.0"
+    std::string tried = {};  ///< when, and by what version: "2026-11-22 16:53, 0.1.0"
     bool is_of(const Cell& cell) const;
 };
 /// Tried now, by this program.

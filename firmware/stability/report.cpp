@@ -139,7 +139,11 @@ std::string report_of(std::span<const Cell> cells, std::span<const Result> resul
         "(preset `precise`) and at its least (`fast`, one cycle). This page is written by the program; "
         "`script/report "
         "stability` makes it anew.\n\n";
-    text += fmt::format("{}Measured on {}; {}.\n\n", summary_of(cells, results), renderer, machine);
+    text += fmt::format(
+        "{}Measured on {}; {}. Each cell says when it was tried, and by which version; until it is tried "
+        "again it "
+        "keeps what was found then.\n\n",
+        summary_of(cells, results), renderer, machine);
     text +=
         "A cell is green if all of this holds (`firmware/stability/rule.h`):\n\n"
         "- no texel, force or torque is nan or infinite;\n"

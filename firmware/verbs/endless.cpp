@@ -35,7 +35,7 @@ int run_endlessly(const StabilityOptions& options) {
             fmt::print("drifts: {}\n", drift);
             flat = false;
         }
-        runs.push_back({fmt::format("{}, {} ({}, {})", what, who, today(), EDDY_VERSION), samples});
+        runs.push_back({fmt::format("{}, {} ({}, {})", what, who, date_and_time(), EDDY_VERSION), samples});
         if (!options.out.empty())
             replace_text_file(std::filesystem::path(options.out) / kLongRunsCsv, csv_of(runs));
     }
