@@ -77,6 +77,7 @@ std::vector<Result> try_all(gles::Gpu& gpu, const std::vector<Cell>& cells, cons
     fmt::print("{} of {} cells to be tried, {}\n{}", left.size(), cells.size(), estimate.in_words(left),
                table_head());
     for (const Result& known : results) fmt::print("{}", table_line(known));
+    std::fflush(stdout);
     double total_s = 0.0, done_s = 0.0;
     for (const Cell& cell : left) total_s += estimate.seconds(cell);
     Progress progress("stability");
