@@ -12,7 +12,6 @@ namespace eddy::gles {
 namespace {
 
 constexpr int kCoarsest = 4;  // cells an axis at which coarsening stops
-constexpr int kCoarsestSweeps = 8;
 // Cells around a body or source that are swept once more. Fewer cost less, but the largest residual then sits
 // right outside: `eddy bench --grid 64`, fast, cuts max |div u| 498, 504, 561 times with 8, 10, 12, at 2 % more fetches.
 constexpr int kRoughReach = 12;
@@ -23,8 +22,10 @@ constexpr double kThinShare = 0.6;
 
 // The sweeps of one visit smooth what a coarser grid cannot hold: eigenvalues of D^-1 A from 1/3 up to 2.
 const std::vector<float> kSmoother = chebyshev_weights(2, 1.0 / 3.0, 2.0);
-// On the coarsest grid they must solve: the slowest mode of 4 cells has (1 - cos(pi/4)) / 3 = 0.098.
-const std::vector<float> kSolver = chebyshev_weights(kCoarsestSweeps, 0.08, 2.0);
+// On the coarsest grid they must solve: the slowest mode of 4 cells has (1 - cos(pi/4)) / 3 = 0.098; where one end is open,
+// (1 - cos(pi/8)) / 3 = 0.025.
+const std::vector<float> kSolver = chebyshev_weights(8, 0.08, 2.0),
+                         kSolverOpen = chebyshev_weights(16, 0.02, 2.0);
 
 std::string glsl(const std::vector<float>& values) {
     return fmt::format("float[{}]({:.8f})", values.size(), fmt::join(values, ", "));
@@ -68,7 +69,7 @@ std::vector<float> diffusion_weights(int m, float lambda, double low) {
 
 Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions, const Walls& walls,
                    bool from_zero)
-    : gpu_(&gpu), fractions_(fractions) {
+    : gpu_(&gpu), fractions_(fractions), solver_(walls.let_through() ? kSolverOpen : kSolver) {
     const std::vector<glm::ivec3> grids = multigrid_levels(cells);
     for (std::size_t l = 0; l < grids.size(); ++l) {
         const glm::ivec3 n = grids[l];
@@ -94,7 +95,7 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
         if (l + 1 == grids.size()) {
             level.solve.emplace(
                 make(gpu, "solve", "gles/fluid/solve_coarsest.frag", l, here,
-                     {.defines = {{"SWEEPS", fmt::format("{}", kSolver.size())}, {"OMEGA", glsl(kSolver)}}},
+                     {.defines = {{"SWEEPS", fmt::format("{}", solver_.size())}, {"OMEGA", glsl(solver_)}}},
                      walls));
             break;
         }
@@ -207,8 +208,8 @@ Field<Cells4> Pressure::cycle(std::size_t l, std::optional<Field<Cells4>> phi,
     Level& level = levels_[l];
     if (level.solve) {
         Field<Cells4> solved(*gpu_, level.cells, Format::RGBA32F);
-        draw(*level.solve, l, {{"b", &b.texture()}}, {{"sweeps", kCoarsestSweeps}}, solved.texture(),
-             level.boxes);
+        draw(*level.solve, l, {{"b", &b.texture()}}, {{"sweeps", static_cast<int>(solver_.size())}},
+             solved.texture(), level.boxes);
         return solved;
     }
     Field<Cells4> p = phi ? sweep(l, *phi, guess, b, kSmoother[0]) : sweep_from_zero(l, b, kSmoother[0]);

@@ -86,6 +86,7 @@ class Pressure {
 
     Gpu* gpu_;
     const Fractions* fractions_;
+    std::vector<float> solver_;  ///< weights of the sweeps on the coarsest grid
     std::vector<Level> levels_;
     std::optional<Pass> follow_, copy_back_;
     std::optional<LeastResidual> least_residual_;  ///< with thin bodies
