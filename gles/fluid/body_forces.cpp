@@ -19,10 +19,6 @@ bool is_lifted(const FluidSetup& setup) {
     return has_gravity(setup) && setup.temperature && setup.temperature->expansion_1_k != 0.0;
 }
 
-bool is_confined(const FluidSetup& setup) {
-    return setup.confinement_1_s > 0.0;
-}
-
 /// The forces this scene has.
 Variant force_variant(const FluidSetup& setup) {
     Variant v;
@@ -30,7 +26,6 @@ Variant force_variant(const FluidSetup& setup) {
     if (has_gravity(setup)) v.defines.emplace_back("GRAVITY", "");
     if (has_weight(setup)) v.defines.emplace_back("WEIGHT", "");
     if (is_lifted(setup)) v.defines.emplace_back("LIFT", "");
-    if (is_confined(setup)) v.defines.emplace_back("CONFINEMENT", "");
     if (setup.acceleration_m_s2) {
         const auto& f = setup.acceleration_m_s2->glsl;
         v.defines.emplace_back("FORCING", "");
@@ -46,26 +41,17 @@ Variant force_variant(const FluidSetup& setup) {
 }  // namespace
 
 bool BodyForces::needed(const FluidSetup& setup) {
-    return has_gravity(setup) || setup.acceleration_m_s2 || is_confined(setup);
+    return has_gravity(setup) || setup.acceleration_m_s2;
 }
 
 BodyForces::BodyForces(Gpu& gpu, const FluidSetup& setup)
     : gpu_(&gpu),
       setup_(&setup),
       add_(gpu, "body forces", "gles/fluid/body_forces.frag", Faces::layout(setup.cells),
-           force_variant(setup)) {
-    if (!is_confined(setup)) return;
-    const AtlasLayout cells = Cells::layout(setup.cells);
-    vorticity_.emplace(gpu, "vorticity", "gles/fluid/vorticity.frag", cells,
-                       Variant{.layouts = {{"FACES", Faces::layout(setup.cells)}},
-                               .defines = {{"CELLS", glsl(setup.cells)}}});
-    confinement_.emplace(gpu, "confinement", "gles/fluid/confinement.frag", cells,
-                         Variant{.layouts = {{"FACES", Faces::layout(setup.cells)}}});
-}
+           force_variant(setup)) {}
 
 Field<Faces> BodyForces::add_to(const Field<Faces>& u, const Field<Cells>* smoke,
-                                const Field<Cells>* temperature, double driven_m_s, double time_s,
-                                double dt_s) {
+                                const Field<Cells>* temperature, double time_s, double dt_s) {
     std::vector<Input> inputs{{"velocity", &u.texture()}};
     std::vector<Uniform> uniforms{{"dt", static_cast<float>(dt_s)},
                                   {"gravity", glm::vec3(setup_->gravity_m_s2)},
@@ -78,25 +64,9 @@ Field<Faces> BodyForces::add_to(const Field<Faces>& u, const Field<Cells>* smoke
         inputs.push_back({"temperature", &temperature->texture()});
         uniforms.push_back({"expansion", static_cast<float>(setup_->temperature->expansion_1_k)});
     }
-    Field<Cells> confinement;
-    if (confinement_) {
-        confinement = swirl(u, driven_m_s);
-        inputs.push_back({"swirl", &confinement.texture()});
-    }
     Field<Faces> next(*gpu_, setup_->cells, Format::RGBA32F);
     add_.draw(inputs, uniforms, {&next.texture()});
     return next;
-}
-
-Field<Cells> BodyForces::swirl(const Field<Faces>& u, double driven_m_s) {
-    const Field<Cells> vorticity(*gpu_, setup_->cells, Format::RGBA32F);
-    Field<Cells> force(*gpu_, setup_->cells, Format::RGBA32F);
-    vorticity_->draw({{"velocity", &u.texture()}}, {}, {&vorticity.texture()});
-    confinement_->draw({{"vorticity", &vorticity.texture()}, {"velocity", &u.texture()}},
-                       {{"strength", static_cast<float>(setup_->confinement_1_s)},
-                        {"driven", static_cast<float>(driven_m_s)}},
-                       {&force.texture()});
-    return force;
 }
 
 }  // namespace eddy::gles

@@ -1,11 +1,10 @@
-// body_forces.frag     u += dt (g (1 + w s - beta T) + f + f_confinement)
+// body_forces.frag     u += dt (g (1 + w s - beta T) + f)
 //
 // reads   velocity   RGBA32F  Faces (nx+1, ny+1, nz+1)   [m/s]
 // reads   smoke      R32F     Cells (nx, ny, nz)         [1]     variant WEIGHT: s, with its weight w (Boussinesq)
 // reads   temperature R32F    Cells                      [K]     variant LIFT: T, with the expansion beta of the fluid
-// reads   swirl      RGBA32F  Cells                      [m/s^2] variant CONFINEMENT: confinement.frag
 // writes  u          RGBA32F  Faces                      [m/s]
-// fetches 1, WEIGHT 5, LIFT 5, WEIGHT+LIFT 9, CONFINEMENT 5, WEIGHT+CONFINEMENT 9, LIFT+CONFINEMENT 9, WEIGHT+LIFT+CONFINEMENT 13
+// fetches 1, WEIGHT 5, LIFT 5, WEIGHT+LIFT 9
 //
 // WEIGHT and LIFT come with GRAVITY. Variant FORCING has the scene's own f(x, t) [m/s^2] in front of it.
 uniform sampler2D velocity;
@@ -32,17 +31,6 @@ vec3 on_faces(sampler2D scalar, ivec3 c) {
 }
 #endif
 
-#ifdef CONFINEMENT
-uniform sampler2D swirl;
-
-vec3 confinement(ivec3 c) {
-    vec3 f = at_clamped(swirl, CELL_CENTRES, c).xyz;
-    return 0.5 * (f + vec3(at_clamped(swirl, CELL_CENTRES, c - ivec3(1, 0, 0)).x,
-                           at_clamped(swirl, CELL_CENTRES, c - ivec3(0, 1, 0)).y,
-                           at_clamped(swirl, CELL_CENTRES, c - ivec3(0, 0, 1)).z));
-}
-#endif
-
 out vec4 result;
 
 void main() {
@@ -62,9 +50,6 @@ void main() {
     vec3 x = vec3(c);
     acceleration += vec3(forcing(x + vec3(0.0, 0.5, 0.5)).x, forcing(x + vec3(0.5, 0.0, 0.5)).y,
                          forcing(x + vec3(0.5, 0.5, 0.0)).z);
-#endif
-#ifdef CONFINEMENT
-    acceleration += confinement(c);
 #endif
     result = at(velocity, TARGET, c) + vec4(dt * acceleration, 0.0);
 }

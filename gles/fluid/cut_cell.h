@@ -4,6 +4,7 @@
 #include "gles/body/displacement.h"
 #include "gles/body/fractions.h"
 #include "gles/fluid/body_forces.h"
+#include "gles/fluid/confinement.h"
 #include "gles/fluid/coupling.h"
 #include "gles/fluid/diagnosis.h"
 #include "gles/fluid/driven.h"
@@ -12,12 +13,14 @@
 #include "gles/fluid/health.h"
 #include "gles/fluid/jets.h"
 #include "gles/fluid/pressure.h"
+#include "gles/fluid/pressure_level.h"
 #include "gles/fluid/projection.h"
 #include "gles/fluid/reflection.h"
 #include "gles/fluid/resample.h"
 #include "gles/fluid/results.h"
 #include "gles/fluid/scalar.h"
 #include "gles/fluid/traction.h"
+#include "gles/fluid/transport_energy.h"
 #include "gles/fluid/viscous_term.h"
 #include "gles/fluid/walls.h"
 
@@ -92,11 +95,14 @@ class CutCellFluid final : public Fluid {
     Walls walls_;
     VelocityTransport advect_;
     Jets jets_;
+    std::optional<Confinement> confinement_;
+    std::optional<TransportEnergy> transport_energy_;
     std::optional<BodyForces> body_forces_;
     std::optional<Fractions> fractions_;
     std::optional<Scalar> smoke_, temperature_;  // with their fields: density [1], excess [K]
     BodyUniforms body_uniforms_;
     Pressure pressure_;
+    std::optional<PressureLevel> pressure_level_;
     Projection projection_;
     std::optional<ViscousTerm> viscosity_;
     std::optional<Pass> add_pressure_;

@@ -15,13 +15,13 @@ FluidState CutCellFluid::state() const {
             .steps = step_,
             .time_s = time_s_,
             .dt_s = dt_s_,
-            .driven_m_s = driven_.speed_m_s(),
             .on_faces = &u_,
             .phi4 = &phi_,
             .smoke = smoke(),
             .temperature = temperature(),
             .diffused = diffused_ ? &diffused_ : nullptr,
             .coupling = coupling_ ? &*coupling_ : nullptr,
+            .driven = &driven_,
             .force_methods = force_methods_ ? &*force_methods_ : nullptr};
 }
 
@@ -33,7 +33,7 @@ void CutCellFluid::resume(const FluidState& from) {
     step_ = from.steps;
     time_s_ = from.time_s;
     dt_s_ = from.dt_s;
-    driven_.start(from.driven_m_s);
+    driven_.take_over(from.driven, time_s_);
     if (dt_s_ > 0.0) sound_ = sound(setup_, dt_s_);
     u_ = from.on_faces ? resample_->on_faces(*from.on_faces) : resample_->on_faces(*from.at_centres);
     if (!same_grid && step_ > 0) free_of_divergence();
@@ -72,8 +72,7 @@ void CutCellFluid::free_of_divergence() {
 void CutCellFluid::settle() {
     const Pressure::Work work = place(bodies_, 1.0f);
     const Field<Faces> u =
-        body_forces_ ? body_forces_->add_to(u_, smoke(), temperature(), driven_.speed_m_s(), time_s_, dt_s_)
-                     : std::move(u_);
+        body_forces_ ? body_forces_->add_to(u_, smoke(), temperature(), time_s_, dt_s_) : std::move(u_);
     diffused_ = diffuse(u, work);
     phi_ = solve_pressure(Part::Whole, divergence(diffused_), work);
     u_ = project(diffused_, increment_, 1.0f);

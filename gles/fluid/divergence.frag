@@ -7,6 +7,8 @@
 //
 // Variants: plain for cells away from solids; CUT near them; AT_REST where only solids move. Tank walls let nothing
 // through; with THROUGH, some do (walls.h).
+#include "open.glsl"
+
 #ifdef AT_REST
 vec3 fluid_velocity(ivec3 c) {
     return vec3(0.0);
@@ -23,6 +25,9 @@ out vec4 b;
 
 #ifdef CUT
 uniform sampler2D ax, ay, az;
+#ifndef AT_REST
+uniform float through_gaps;  // how fast fluid passes a gap at most  [m/s]
+#endif
 #endif
 
 #ifdef THROUGH
@@ -78,7 +83,7 @@ void main() {
 #ifdef CUT
     vec4 lx = at(ax, FRACTION, c), hx = at(ax, FRACTION, c + ivec3(1, 0, 0));
     vec4 ly = at(ay, FRACTION, c), hy = at(ay, FRACTION, c + ivec3(0, 1, 0));
-    vec4 lz = at(az, FRACTION, c), hz = vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x);
+    vec4 lz = at(az, FRACTION, c), hz = upper_z(az, FRACTION, c, lz);
     // A body goes through the tank's walls as it goes through any face; else it would press on what is left beside it there.
     for (int lane = 0; lane < 4; ++lane) {
         vec3 x = vec3(c.xy, z[lane]);
@@ -93,13 +98,19 @@ void main() {
 
     b = (high_x - low_x + high_y - low_y + high_z - low_z) * vec4(lessThan(z, vec4(n.z)));
 #ifdef CUT
-    // A cell without an open face has no pressure to answer with. Beside a tank's wall a moving solid would seem to pile up.
+    // A cell without an open face has no pressure to answer with: beside a tank's wall a moving solid would seem to pile up. One
+    // with hardly any has one that throws the fluid out of it, and shakes the body.
     lx *= c.x > 0 ? 1.0 : open_low.x;
     hx *= c.x + 1 < n.x ? 1.0 : open_high.x;
     ly *= c.y > 0 ? 1.0 : open_low.y;
     hy *= c.y + 1 < n.y ? 1.0 : open_high.y;
     lz *= mix(vec4(open_low.z), vec4(1.0), vec4(greaterThan(z, vec4(0.0))));
     hz *= mix(vec4(open_high.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(n.z))));
-    b *= vec4(greaterThan(lx + hx + ly + hy + lz + hz, vec4(0.0)));
+    vec4 a = lx + hx + ly + hy + lz + hz;
+#ifdef AT_REST
+    b *= vec4(greaterThan(a, vec4(0.0)));
+#else
+    b = clamp(b, -through_gaps * a, through_gaps * a);  // guard gap
+#endif
 #endif
 }

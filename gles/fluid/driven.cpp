@@ -11,6 +11,15 @@ namespace {
 
 /// Crossings of the tank after which the speed of what has stopped counts half.
 constexpr double kCrossings = 4.0;
+/// Through a gap, times the speed of what drives the fluid; and cells a step, where that is not known.
+constexpr double kThroughGaps = 2.0, kCellsThroughGaps = 5.0;
+/// A change in one step, relative to the speed of what drives the fluid: a smooth inflow of 1 Hz changes by an eighth at most in
+/// steps of 20 ms.
+constexpr double kSudden = 0.25;
+/// Faster than anything, and a number still when multiplied by a few.
+constexpr double kUnlimited = 1e30;
+/// Places where a wall's velocity is looked at, each way.
+constexpr int kPlaces = 5;
 
 bool is_unknown(const FluidSetup& setup) {
     const bool weight = (setup.smoke && setup.smoke->weight != 0.0) ||
@@ -20,30 +29,85 @@ bool is_unknown(const FluidSetup& setup) {
     const bool falls = setup.gravity_m_s2 != glm::dvec3(0.0) && (weight || free);
     const WallSetup still;
     const bool walls = std::any_of(setup.walls.begin(), setup.walls.end(), [&](const WallSetup& wall) {
-        return wall.kind != WallKind::Open && wall.velocity_m_s.glsl != still.velocity_m_s.glsl;
+        return wall.velocity_m_s.glsl != still.velocity_m_s.glsl && !wall.velocity_at;
     });
     return falls || walls || setup.acceleration_m_s2.has_value();
+}
+
+glm::dvec3 size_m(const FluidSetup& setup) {
+    return setup.cell_m * glm::dvec3(setup.cells);
+}
+
+/// What jets and walls make the fluid do at a time.
+std::vector<glm::dvec3> inflow_m_s(const FluidSetup& setup, double time_s) {
+    std::vector<glm::dvec3> inflow;
+    for (const SourceSetup& source : setup.sources)
+        if (source.velocity_m_s)
+            inflow.push_back(is_running(source, time_s) ? *source.velocity_m_s : glm::dvec3(0.0));
+    for (std::size_t wall = 0; wall < setup.walls.size(); ++wall) {
+        if (!setup.walls[wall].velocity_at || setup.walls[wall].kind == WallKind::Open) continue;
+        const int axis = static_cast<int>(wall / 2);
+        for (int j = 0; j < kPlaces; ++j)
+            for (int i = 0; i < kPlaces; ++i) {
+                glm::dvec3 share;
+                share[axis] = static_cast<double>(wall % 2);
+                share[(axis + 1) % 3] = (i + 0.5) / kPlaces;
+                share[(axis + 2) % 3] = (j + 0.5) / kPlaces;
+                const glm::dvec3 u = setup.walls[wall].velocity_at(share * size_m(setup), time_s);
+                // guard formula: where it has no value the wall rests
+                inflow.push_back(glm::length(u) < std::numeric_limits<double>::infinity() ? u
+                                                                                          : glm::dvec3(0.0));
+            }
+    }
+    return inflow;
 }
 
 }  // namespace
 
 Driven::Driven(const FluidSetup& setup) : setup_(&setup), unknown_(is_unknown(setup)) {}
 
-void Driven::go_on(const std::vector<BodyState>& bodies, double time_s, double dt_s) {
-    const glm::dvec3 size_m = setup_->cell_m * glm::dvec3(setup_->cells);
-    const double longest_m = std::max({size_m.x, size_m.y, size_m.z});
-    speed_m_s_ /= 1.0 + speed_m_s_ * dt_s / (kCrossings * longest_m);
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        speed_m_s_ = std::max(
-            speed_m_s_, glm::length(bodies[i].velocity_m_s) +
-                            glm::length(bodies[i].spin_rad_s) * bounding_radius_m(setup_->bodies[i].shape));
-    for (const SourceSetup& source : setup_->sources)
-        if (source.velocity_m_s && is_running(source, time_s))
-            speed_m_s_ = std::max(speed_m_s_, glm::length(*source.velocity_m_s));
+void Driven::start(double speed_m_s) {
+    known_lately_m_s_ = known_ever_m_s_ = speed_m_s;
+    inflow_m_s_.clear();
 }
 
-double Driven::speed_m_s() const {
-    return unknown_ ? std::numeric_limits<float>::max() : speed_m_s_;
+void Driven::take_over(const Driven* from, double time_s) {
+    known_lately_m_s_ = from ? from->known_lately_m_s_ : 0.0;
+    known_ever_m_s_ = from ? from->known_ever_m_s_ : kUnlimited;
+    inflow_m_s_ = inflow_m_s(*setup_, time_s);
+}
+
+void Driven::go_on(const std::vector<BodyState>& bodies, double time_s, double dt_s) {
+    const glm::dvec3 size = size_m(*setup_);
+    const double longest_m = std::max({size.x, size.y, size.z});
+    double now_m_s = 0.0;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        now_m_s = std::max(
+            now_m_s, glm::length(bodies[i].velocity_m_s) +
+                         glm::length(bodies[i].spin_rad_s) * bounding_radius_m(setup_->bodies[i].shape));
+    std::vector<glm::dvec3> now = inflow_m_s(*setup_, time_s + dt_s);
+    inflow_m_s_.resize(now.size(), glm::dvec3(0.0));
+    double change_m_s = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        now_m_s = std::max(now_m_s, glm::length(now[i]));
+        change_m_s = std::max(change_m_s, glm::length(now[i] - inflow_m_s_[i]));
+    }
+    known_lately_m_s_ =
+        std::max(now_m_s, known_lately_m_s_ / (1.0 + known_lately_m_s_ * dt_s / (kCrossings * longest_m)));
+    known_ever_m_s_ = std::max(now_m_s, known_ever_m_s_);
+    is_sudden_ = change_m_s > kSudden * known_lately_m_s_;
+    inflow_m_s_ = std::move(now);
+}
+
+double Driven::lately_m_s() const {
+    return unknown_ ? kUnlimited : known_lately_m_s_;
+}
+
+double Driven::through_gaps_m_s(double dt_s) const {
+    if (setup_->acceleration_m_s2) return kUnlimited;
+    const double driven = kThroughGaps * known_ever_m_s_ + dt_s * glm::length(setup_->gravity_m_s2);
+    return std::min(kUnlimited,
+                    unknown_ ? std::max(driven, kCellsThroughGaps * setup_->cell_m / dt_s) : driven);
 }
 
 }  // namespace eddy::gles

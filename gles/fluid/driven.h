@@ -5,23 +5,34 @@
 
 namespace eddy::gles {
 
-/// How fast what drives the fluid has lately been: bodies, jets, the flow it started with. Vorticity confinement pushes no
-/// fluid that is much faster, or it would feed an eddy for ever. "Lately" is a few crossings of the tank at that speed.
-/// Infinite where moving walls, weight or a force drive the fluid, whose speed is not known beforehand.
+/// How fast what drives the fluid has been: bodies, jets, walls, the flow it started with. "Lately" is a few crossings of the
+/// tank at that speed. Where weight or a force drives the fluid, or bodies that it moves itself, nobody knows beforehand.
 class Driven {
   public:
     explicit Driven(const FluidSetup& setup);
 
-    /// From now on the fluid moves as fast as that.
-    void start(double speed_m_s) { speed_m_s_ = speed_m_s; }
+    /// From now on the fluid moves as fast as that, and nothing else is known of it.
+    void start(double speed_m_s);
+    /// As what drove another fluid of the same scene until now. Null: nobody has watched, and it may have been as fast as anything.
+    void take_over(const Driven* from, double time_s);
     /// After dt_s in which the bodies got to these states; `time_s`: when that began.
     void go_on(const std::vector<BodyState>& bodies, double time_s, double dt_s);
-    double speed_m_s() const;
+
+    /// Infinite where it is not known. Vorticity confinement pushes no fluid that is much faster: it would feed an eddy for ever.
+    double lately_m_s() const;
+    /// What goes through a gap of less than a quarter of a cell, relative to its sides: the gap closes or opens faster than any
+    /// cell can tell, and continuity would have the fluid a thousand times as fast as the body. With what gravity adds in a step,
+    /// which the pressure takes off again. No limit where the scene has a force of its own.
+    double through_gaps_m_s(double dt_s) const;
+    /// A jet or an inflow has just begun or ended, or all but: the last pressure says little about this one.
+    bool is_sudden() const { return is_sudden_; }
 
   private:
     const FluidSetup* setup_;
     bool unknown_;
-    double speed_m_s_ = 0.0;
+    double known_lately_m_s_ = 0.0, known_ever_m_s_ = 0.0;
+    std::vector<glm::dvec3> inflow_m_s_;  ///< of jets, and of walls at some places
+    bool is_sudden_ = false;
 };
 
 }  // namespace eddy::gles

@@ -7,6 +7,7 @@
 namespace eddy::gles {
 
 class Coupling;
+class Driven;
 class ForceMethodsPass;
 
 /// Where a fluid is at the end of a step, for another to go on from: references into it, which end with its next step.
@@ -16,8 +17,7 @@ struct FluidState {
     const std::vector<BodyState>& bodies;
     long steps = 0;
     double time_s = 0.0;
-    double dt_s = 0.0;        ///< of the last step; 0 before the first
-    double driven_m_s = 0.0;  ///< Driven::speed_m_s(), where that is known
+    double dt_s = 0.0;  ///< of the last step; 0 before the first
 
     const Field<Faces>* on_faces = nullptr;     ///< velocity [m/s]
     const Field<Cells>* at_centres = nullptr;   ///< velocity [m/s]
@@ -29,6 +29,7 @@ struct FluidState {
     // What only the staggered grid knows.
     const Field<Faces>* diffused = nullptr;  ///< velocity before the projection, in a viscous fluid [m/s]
     const Coupling* coupling = nullptr;
+    const Driven* driven = nullptr;
     const ForceMethodsPass* force_methods = nullptr;
 };
 

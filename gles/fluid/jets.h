@@ -12,6 +12,7 @@ namespace eddy::gles {
 class Jets {
   public:
     Jets(Gpu& gpu, const FluidSetup& setup);
+    bool any() const { return drive_.has_value(); }
     /// Gives the fluid inside those that run their velocity.
     Field<Faces> drive(Field<Faces> u, double time_s);
     /// The cells that those that run may touch.

@@ -5,6 +5,8 @@
 // Variant LAST_LINK (vec3): on such a grid an opening may lie before the last cell's centre; this much stronger is the link to it.
 // Variant LAST_CELL (vec3): on the coarse grids of an odd grid the last cell of an axis is only partly inside; this is how
 // much. Faces along it are smaller by the same share, as the averaged fractions of variant CUT know by themselves.
+#include "open.glsl"
+
 uniform sampler2D phi;
 #ifdef CUT
 uniform sampler2D ax, ay, az;
@@ -50,10 +52,10 @@ vec4 balance(ivec3 c, Neighbours n, out vec4 diagonal) {
     vec4 out_z = (1.0 - has_zl) * OPEN_LOW.z + valid * (1.0 - has_zh) * OPEN_HIGH.z;
 #endif
 #ifdef CUT
-    vec4 lz = at(az, FRACTION, c);
-    vec4 wxl = link_xl * has_xl * at(ax, FRACTION, c), wxh = link_xh * has_xh * at(ax, FRACTION, c + ivec3(1, 0, 0));
-    vec4 wyl = link_yl * has_yl * at(ay, FRACTION, c), wyh = link_yh * has_yh * at(ay, FRACTION, c + ivec3(0, 1, 0));
-    vec4 wzl = link_zl * has_zl * lz, wzh = link_zh * has_zh * vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x);
+    vec4 lz = share(at(az, FRACTION, c)), hz = upper_z(az, FRACTION, c, lz);
+    vec4 wxl = link_xl * has_xl * share(at(ax, FRACTION, c)), wxh = link_xh * has_xh * share(at(ax, FRACTION, c + ivec3(1, 0, 0)));
+    vec4 wyl = link_yl * has_yl * share(at(ay, FRACTION, c)), wyh = link_yh * has_yh * share(at(ay, FRACTION, c + ivec3(0, 1, 0)));
+    vec4 wzl = link_zl * has_zl * lz, wzh = link_zh * has_zh * hz;
     diagonal = valid * (wxl + wxh + wyl + wyh + wzl + wzh);
     vec4 sum = valid * (wxl * (xl - p) + wxh * (xh - p) + wyl * (yl - p) + wyh * (yh - p) + wzl * (zl - p) + wzh * (zh - p));
 #ifdef THROUGH
@@ -62,7 +64,7 @@ vec4 balance(ivec3 c, Neighbours n, out vec4 diagonal) {
     // A body may stand in the opening. Coarse grids of an odd grid have no face there, and do without.
     ivec3 to = c + ivec3(float(c.x > 0), float(c.y > 0), 0);
     outside = out_x * at(ax, FRACTION, ivec3(to.x, c.yz)) + out_y * at(ay, FRACTION, ivec3(c.x, to.y, c.z)) +
-              out_z * mix(vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x), lz, 1.0 - has_zl);
+              out_z * mix(hz, lz, 1.0 - has_zl);
 #endif
     diagonal += valid * outside;
     sum -= valid * outside * p;

@@ -19,6 +19,10 @@ const float scale = 1.0;
 #endif
 #ifdef CUT
 uniform sampler2D ax, ay, az;
+uniform float through_gaps;  // [m/s]
+
+// A gap narrower than this share of a face is no longer told from a closed one that leaks.
+const float kGap = 0.25;
 #endif
 
 out vec4 result;
@@ -37,11 +41,13 @@ float potential(ivec3 c) {
 }
 
 #ifdef CUT
-// 1 where a component is the body's.
-vec3 solid_faces(ivec3 c) {
+// Next to a solid: what passes through gaps is slowed down, and what does not pass at all is the solid's.
+vec3 beside(vec3 solid, vec3 u, ivec3 c) {
     ivec3 slab = ivec3(c.xy, c.z >> 2);
     vec3 a = vec3(lane(at(ax, FRACTION, slab), c.z), lane(at(ay, FRACTION, slab), c.z), lane(at(az, FRACTION, slab), c.z));
-    return vec3(lessThanEqual(a, vec3(0.0)));
+    vec3 slower = clamp(u, solid - through_gaps, solid + through_gaps);
+    u = mix(u, slower, lessThan(a, vec3(kGap)));  // guard gap
+    return mix(u, solid, lessThanEqual(a, vec3(0.0)));
 }
 #endif
 
@@ -59,7 +65,7 @@ vec3 projected(ivec3 c, ivec3 m) {
     vec3 x = vec3(m);
     vec3 solid = vec3(solid_velocity(x + vec3(0.0, 0.5, 0.5)).x, solid_velocity(x + vec3(0.5, 0.0, 0.5)).y,
                       solid_velocity(x + vec3(0.5, 0.5, 0.0)).z);
-    u = mix(u, solid, solid_faces(m));
+    u = beside(solid, u, m);
 #endif
 #ifdef THROUGH
     vec3 inflow = low * INFLOW_LOW + high * INFLOW_HIGH;

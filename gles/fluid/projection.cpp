@@ -76,28 +76,31 @@ void Projection::add_solids(std::vector<Input>& inputs, std::vector<Uniform>& un
     uniforms.insert(uniforms.end(), of_bodies.begin(), of_bodies.end());
 }
 
-Field<Cells4> Projection::divergence(const Field<Faces>& u, const std::vector<Box>& boxes,
-                                     const Uniform& wall_time) {
+Field<Cells4> Projection::divergence(const Field<Faces>& u, double through_gaps_m_s,
+                                     const std::vector<Box>& boxes, const Uniform& wall_time) {
     Field<Cells4> b(*gpu_, u.cells(), Format::RGBA32F);
     std::vector<Input> inputs{{"velocity", &u.texture()}};
     std::vector<Uniform> uniforms{wall_time};
     divergence_.draw(inputs, uniforms, {&b.texture()});
     if (fractions_) {
         add_solids(inputs, uniforms);
+        uniforms.push_back({"through_gaps", static_cast<float>(through_gaps_m_s)});
         divergence_cut_->draw(inputs, uniforms, {&b.texture()}, Region::packed(boxes));
     }
     return b;
 }
 
-Field<Faces> Projection::project(const Field<Faces>& u, const Field<Cells4>& phi, float scale, float most_phi,
-                                 const std::vector<Box>& boxes, const Uniform& wall_time) {
+Field<Faces> Projection::project(const Field<Faces>& u, const Field<Cells4>& phi, float scale,
+                                 const Limits& limits, const std::vector<Box>& boxes,
+                                 const Uniform& wall_time) {
     if (!predicts_ && scale != 1.0f) throw std::logic_error("the pressure of another step without viscosity");
     Field<Faces> next(*gpu_, u.cells(), Format::RGBA32F);
     std::vector<Input> inputs{{"velocity", &u.texture()}, {"phi", &phi.texture()}};
-    std::vector<Uniform> uniforms{{"scale", scale}, {"most_phi", most_phi}, wall_time};
+    std::vector<Uniform> uniforms{{"scale", scale}, {"most_phi", limits.most_phi}, wall_time};
     project_.draw(inputs, uniforms, {&next.texture()});
     if (fractions_) {
         add_solids(inputs, uniforms);
+        uniforms.push_back({"through_gaps", static_cast<float>(limits.through_gaps_m_s)});
         project_cut_->draw(inputs, uniforms, {&next.texture()}, Region(with_upper_walls(boxes, u.cells())));
     }
     if (project_at_walls_)

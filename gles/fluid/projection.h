@@ -16,12 +16,17 @@ class Projection {
     Projection(Gpu& gpu, const FluidSetup& setup, const Walls& walls, const Fractions* fractions,
                const BodyUniforms& bodies);
 
-    /// div (a u + (1 - a) u_solid). `boxes`: around the bodies; `wall_time`: see Walls.
-    Field<Cells4> divergence(const Field<Faces>& u, const std::vector<Box>& boxes, const Uniform& wall_time);
+    /// div (a u + (1 - a) u_solid), of which a cell is asked no more than its openings let through. `boxes`: around the bodies;
+    /// `wall_time`: see Walls.
+    Field<Cells4> divergence(const Field<Faces>& u, double through_gaps_m_s, const std::vector<Box>& boxes,
+                             const Uniform& wall_time);
+    struct Limits {
+        float most_phi = 0.0f;           ///< beyond it a phi counts as 0 (step_guard.h)
+        double through_gaps_m_s = 1e30;  ///< see Driven
+    };
     /// u - scale grad phi, and on walls and in solids their velocity. Where there is no viscous step that would start with the
-    /// pressure of the last one, phi is always this step's and `scale` must be 1: the shader has none. A phi beyond `most_phi`
-    /// (step_guard.h) counts as 0.
-    Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale, float most_phi,
+    /// pressure of the last one, phi is always this step's and `scale` must be 1: the shader has none.
+    Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale, const Limits& limits,
                          const std::vector<Box>& boxes, const Uniform& wall_time);
 
   private:

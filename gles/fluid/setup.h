@@ -80,7 +80,7 @@ enum class WallKind {
 struct WallSetup {
     WallKind kind = WallKind::Slip;
     VectorFormula velocity_m_s{};  ///< of NoSlip, along it, and of Inflow
-    /// The same at a place [m] and time [s], for force_methods; empty: 0.
+    /// The same at a place [m] and time [s], for what no shader computes (force_methods, Driven); empty: not known.
     std::function<glm::dvec3(const glm::dvec3&, double)> velocity_at{};
 };
 

@@ -13,6 +13,8 @@
 // VISCOUS adds what the fluid gave where the body holds it, lambda w (u - u_surface): what viscous.glsl took from it.
 // That is mu du/dn; the traction is mu (du/dn + (grad u)^T n). Where the fluid sticks to a body that moves as u = U + s x r,
 // the second part is n x s, because div u = 0 leaves no other: a torque, mu r x (n x s) dA, and no force.
+#include "open.glsl"
+
 #ifdef VISCOUS
 uniform sampler2D velocity, distances, grips, surface;
 uniform float lambda;  // nu dt / h^2
@@ -83,7 +85,7 @@ void main() {
         vec4 p = at(phi, PHI, c);
         vec4 lx = at(ax, FRACTION, c), hx = at(ax, FRACTION, c + ivec3(1, 0, 0));
         vec4 ly = at(ay, FRACTION, c), hy = at(ay, FRACTION, c + ivec3(0, 1, 0));
-        vec4 lz = at(az, FRACTION, c), hz = vec4(lz.yzw, at_clamped(az, FRACTION, c + ivec3(0, 0, 1)).x);
+        vec4 lz = at(az, FRACTION, c), hz = upper_z(az, FRACTION, c, lz);
         for (int lane = 0; lane < 4; ++lane) {
             ivec3 cell = ivec3(column, 4 * slab + lane);
             if (cell.z >= CELLS.z) break;

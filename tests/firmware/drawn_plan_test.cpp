@@ -165,8 +165,21 @@ bool spreading(const Scene& s) {
 bool second_order(const Scene& s) {
     return s.solver.time_order == 2;
 }
+bool closed_with_bodies(const Scene& s) {
+    const auto walls = s.tank.walls.all();
+    return solved(s) && any_body(s) && std::none_of(walls.begin(), walls.end(), [](const Scene::Wall* wall) {
+               return wall->kind == WallKind::Open;
+           });
+}
+bool makes_energy(const Scene& s) {
+    const auto walls = s.tank.walls.all();
+    const bool closed = std::all_of(walls.begin(), walls.end(), [](const Scene::Wall* wall) {
+        return (wall->kind == WallKind::Slip || wall->kind == WallKind::NoSlip) && !wall->velocity_m_s;
+    });
+    return solved(s) && closed && (corrects(s) || second_order(s) || s.vorticity_confinement);
+}
 bool pushed(const Scene& s) {
-    return s.fluid.gravity_m_s2 != glm::dvec3(0.0) || s.forcing || s.vorticity_confinement;
+    return s.fluid.gravity_m_s2 != glm::dvec3(0.0) || s.forcing;
 }
 
 const Caller kCallers[] = {
@@ -179,7 +192,7 @@ const Caller kCallers[] = {
     {"advect velocity", solved},
     {"body forces", pushed},
     {"coarsen fractions", any_body},
-    {"confinement", [](const Scene& s) { return s.vorticity_confinement.has_value(); }},
+    {"confine", [](const Scene& s) { return s.vorticity_confinement.has_value(); }},
     {"copy back", any_body},
     {"correct heat", [](const Scene& s) { return warm(s) && corrects(s); }},
     {"correct smoke", [](const Scene& s) { return smoky(s) && corrects(s); }},
@@ -199,15 +212,20 @@ const Caller kCallers[] = {
     {"heat sources", [](const Scene& s) { return any_source(s, &Scene::Source::temperature_k_per_s); }},
     {"imposed flow", [](const Scene& s) { return s.imposed.has_value(); }},
     {"jacobi", solved},
+    {"keep energy", makes_energy},
     {"least residual", thin},
     {"owners", [](const Scene& s) { return s.outputs.force_methods; }},
+    {"pressure level", closed_with_bodies},
     {"project", solved},
     {"project cut", any_body},
     {"prolong", solved},
     {"reduce diagnosis", always},
     {"reduce health", always},
     {"reduce heat", warm},
+    {"reduce pressure level", closed_with_bodies},
     {"reduce products", thin},
+    {"reduce transport energy", makes_energy},
+    {"put pressure right", closed_with_bodies},
     {"reflect", second_order},
     {"residual", thin},
     {"restrict residual", solved},
@@ -218,6 +236,7 @@ const Caller kCallers[] = {
     {"sum force", any_measured},
     {"sum traction", [](const Scene& s) { return any_measured(s) || any_coupled(s); }},
     {"traction", [](const Scene& s) { return any_measured(s) || any_coupled(s); }},
+    {"transport energy", makes_energy},
     {"viscosity", viscous},
     {"viscous", viscous},
     {"voxelise", any_body},
