@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <csignal>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -12,6 +13,14 @@
 extern char** environ;
 
 namespace eddy {
+namespace {
+
+std::string without_progress(const std::string& err) {
+    static const std::regex progress("\\w+: \\d+ %[^\n]*\n");
+    return std::regex_replace(err, progress, "");
+}
+
+}  // namespace
 
 Program::Program(std::vector<std::string> arguments) {
     std::vector<char*> argv;
@@ -47,7 +56,7 @@ Ended Program::wait(std::chrono::seconds patience) {
     }
     pid_ = 0;
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_all(output_ / "out"),
-            read_all(output_ / "err")};
+            without_progress(read_all(output_ / "err"))};
 }
 
 std::vector<std::string> eddy_command(std::vector<std::string> arguments) {

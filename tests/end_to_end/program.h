@@ -12,7 +12,8 @@ namespace eddy {
 /// What a program left when it ended.
 struct Ended {
     int status = 0;  ///< exit status, or 128 + signal
-    std::string out, err;
+    std::string out;
+    std::string err;  ///< less what only a slow machine has: lines on how far long work has come
 };
 
 /// A child process, started without a shell; its output goes to files.
@@ -25,8 +26,8 @@ class Program {
     Program& operator=(const Program&) = delete;
 
     void send(int signal) const;
-    /// A program that has not ended by then is killed.
-    Ended wait(std::chrono::seconds patience = std::chrono::minutes(1));
+    /// A program that has not ended by then is killed; however slow the machine, before ctest gives the test up.
+    Ended wait(std::chrono::seconds patience = std::chrono::minutes(9));
 
   private:
     ScratchFolder output_;
