@@ -23,6 +23,11 @@ struct Kind {
     bool viscous = false, heat = false, thin = false, free = false;
 };
 
+/// What googletest writes for one.
+void PrintTo(const Kind& kind, std::ostream* out) {
+    *out << kind.name;
+}
+
 FluidSetup tank(const Kind& kind) {
     FluidSetup s;
     s.cells = glm::ivec3(kind.cells);

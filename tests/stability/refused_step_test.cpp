@@ -5,6 +5,12 @@
 #include "tests/stability/fluid_inside.h"
 
 namespace eddy::gles {
+
+/// What googletest writes for one; it looks in the namespace of what it writes.
+static void PrintTo(Method method, std::ostream* out) {
+    *out << (method == Method::CutCell ? "CutCell" : "Yang2009");
+}
+
 namespace {
 
 FluidSetup tank(Method method) {
@@ -107,9 +113,7 @@ TEST_F(FormulaTest, WithoutAValueSaysNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, RefusedStep, testing::Values(Method::CutCell, Method::Yang2009),
-                         [](const auto& tested) {
-                             return std::string(tested.param == Method::CutCell ? "CutCell" : "Yang2009");
-                         });
+                         [](const auto& tested) { return testing::PrintToString(tested.param); });
 
 }  // namespace
 }  // namespace eddy::gles
