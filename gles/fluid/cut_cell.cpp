@@ -15,11 +15,14 @@ namespace {
 /// an inflow begins or ends.
 constexpr int kColdCycles = 3;
 
+constexpr double kNoLimit = 1e30;  // m/s
+
 /// From here on a fluid is so thick that one V-cycle of the viscous term leaves more than the next step's pressure can mend: at
 /// 1000, with one for the pressure too, eddies at rest walls grew 1.2 times a step on 25^3 cells.
 constexpr float kThick = 100.0f;
 
 int viscous_cycles(const FluidSetup& setup, double dt_s) {
+    // guard thick
     return std::max(setup.solver.viscous_cycles, diffusion_number(setup, dt_s) > kThick ? 2 : 1);
 }
 
@@ -118,7 +121,9 @@ void CutCellFluid::move_on(double dt_s, const std::vector<BodyState>& given, boo
     }
     if (wants_diagnosis) {
         Gpu::Stage stage(gpu_, "diagnose");
-        diagnosis_.draw({u_, b, divergence(u_), smoke(), temperature()}, results_.row());
+        // What the guard against gaps leaves is a divergence too.
+        const Field<Cells4> left = projection_.divergence(u_, kNoLimit, boxes_, walls_.time(time_s_));
+        diagnosis_.draw({u_, b, left, smoke(), temperature()}, results_.row());
     }
     {
         Gpu::Stage stage(gpu_, "read back");
@@ -139,13 +144,13 @@ Field<Cells4> CutCellFluid::advance(Part part, double start_s, std::vector<BodyS
         u = advect_(second_half ? mirrored_ : u_, u_, dt_s, walls_.time(time_s_));  // u* = u(x - dt u)
         keep(&StepVelocities::carried, u);
     }
+    if (transport_energy_ && TransportEnergy::acts(diffusion_number(setup_, dt_s_))) {
+        Gpu::Stage stage(gpu_, "transport energy");
+        u = transport_energy_->keep(std::move(u), second_half ? mirrored_ : u_);  // sum |u*|^2 <= sum |u|^2
+    }
     if (confinement_) {
         Gpu::Stage stage(gpu_, "confinement");
         u = confinement_->add_to(u, driven_.lately_m_s(), dt_s);  // u* += dt eps h (N x w)
-    }
-    if (transport_energy_) {
-        Gpu::Stage stage(gpu_, "transport energy");
-        u = transport_energy_->keep(std::move(u), second_half ? mirrored_ : u_);  // sum |u*|^2 <= sum |u|^2
     }
     if (jets_.any()) {
         Gpu::Stage stage(gpu_, "drive sources");

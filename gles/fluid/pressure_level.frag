@@ -18,6 +18,6 @@ void main() {
     for (int i = 0; i < RUN; ++i) {
         ivec3 slab = ivec3(RUN * c.x + i, c.yz);
         if (slab.x >= CELLS.x) break;
-        result.x += dot(inside, sound(at(phi, PHI, slab), most_phi));  // guard level
+        result.x += dot(inside, sound(at(phi, PHI, slab), most_phi));  // guard guess
     }
 }

@@ -10,5 +10,5 @@ out vec4 result;
 
 void main() {
     float mean = texelFetch(sum, ivec2(0), 0).x / float(CELLS.x * CELLS.y * CELLS.z);
-    result = texelFetch(phi, ivec2(gl_FragCoord.xy), 0) - mean;
+    result = texelFetch(phi, ivec2(gl_FragCoord.xy), 0) - mean;  // guard level
 }

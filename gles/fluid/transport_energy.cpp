@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "gles/fluid/confinement.h"
-
 namespace eddy::gles {
 namespace {
 
@@ -24,8 +22,7 @@ AtlasLayout rows_of(const FluidSetup& setup) {
 }  // namespace
 
 bool TransportEnergy::needed(const FluidSetup& setup) {
-    const bool makes = setup.solver.advection == Advection::MacCormack || setup.solver.time_order == 2 ||
-                       Confinement::needed(setup);
+    const bool makes = setup.solver.advection == Advection::MacCormack || setup.solver.time_order == 2;
     const WallSetup still;
     return makes && std::all_of(setup.walls.begin(), setup.walls.end(), [&](const WallSetup& wall) {
                const bool closed = wall.kind == WallKind::Slip || wall.kind == WallKind::NoSlip;

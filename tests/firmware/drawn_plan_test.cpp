@@ -176,7 +176,7 @@ bool makes_energy(const Scene& s) {
     const bool closed = std::all_of(walls.begin(), walls.end(), [](const Scene::Wall* wall) {
         return (wall->kind == WallKind::Slip || wall->kind == WallKind::NoSlip) && !wall->velocity_m_s;
     });
-    return solved(s) && closed && (corrects(s) || second_order(s) || s.vorticity_confinement);
+    return solved(s) && closed && (corrects(s) || second_order(s));
 }
 bool pushed(const Scene& s) {
     return s.fluid.gravity_m_s2 != glm::dvec3(0.0) || s.forcing;

@@ -135,8 +135,6 @@ TEST_F(TermOff, SmokeThatDoesNotFadeIsWhatFadingSmokeWouldBeTimesItsDecay) {
 TEST_F(TermOff, ConfinementAddsToTheFlowInProportionToItsStrength) {
     // One step from a given flow: transport is the same, the projection linear, so twice the strength adds twice as much.
     FluidSetup s = with_ball();
-    // A wall that creeps along, so that the energy of transport is not limited (transport_energy.h).
-    s.walls[4] = {.kind = WallKind::NoSlip, .velocity_m_s = {{"1e-9", "0.0", "0.0"}}};
     s.velocity_at_start = [](const glm::dvec3& x) {
         return glm::dvec3(0.3 * std::sin(0.4 * x.y), 0.2 * std::cos(0.3 * x.x), 0.0);
     };

@@ -82,7 +82,9 @@ TEST_F(GapsTest, ABodyInTheWallsOfAClosedTankLeavesThePressureWhereItWas) {
     });
     RecordProperty("first_pa", std::to_string(first_pa));
     RecordProperty("last_pa", std::to_string(last_pa));
+    // Measured: 0.046 and 0.013 Pa; without the guard 0.87 and 0.046 Pa.
     EXPECT_LT(last_pa, 8.0 * first_pa);
+    EXPECT_LT(last_pa, 0.2);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ constexpr double kGravity = 9.80665;  // [m/s2], standard
 constexpr double kStiffness = 250.0;     // [N/m]
 constexpr double kDamping = 4.0;         // [N s/m]
 constexpr double kMemory = 150.0;        // [N/(m s)]
-constexpr double kMaxForce = 6.0;        // [N] each way
+constexpr double kMaxForce = 6.0;        // [N]
 constexpr double kVelocityTime = 0.008;  // [s] of the low-pass on velocity
 constexpr double kSwing = 0.004;         // [m] up and down
 constexpr Seconds kSwingTime{2.0};
@@ -24,6 +24,7 @@ constexpr Seconds kApproachTime{2.0};  // from where the handle is found to the 
 constexpr Seconds kSettleTime{6.0};    // approach and the learning of the steady part
 constexpr Seconds kHalf{8.0};          // whole swings
 constexpr Seconds kMeasureTime = 2 * kHalf;
+constexpr Seconds kPatience{180.0};  // for the weight
 constexpr double kFarthest = 0.035;  // [m] from where it should be: it ran away
 constexpr Instant kSilence = 20ms;
 constexpr double kLeastRatio = 0.1, kMostRatio = 10.0;  // of the scale found to the scale used
@@ -36,12 +37,6 @@ Calibration::Calibration(double weight_kg, double motor_units_per_nm)
 
 void Calibration::weight_hangs() {
     if (stage_ == Stage::HangOn) weight_hangs_ = true;
-}
-
-double Calibration::progress(Instant now) const {
-    if (!started_) return 0.0;
-    const Seconds in_stage = now - stage_began_;
-    return std::clamp(in_stage / (kSettleTime + kMeasureTime), 0.0, 1.0);
 }
 
 glm::dvec3 Calibration::tick(Instant now, const std::optional<HandleReading>& reading) {
@@ -62,6 +57,10 @@ glm::dvec3 Calibration::tick(Instant now, const std::optional<HandleReading>& re
     if (stage_ == Stage::HangOn && weight_hangs_) begin(Stage::Loaded, now);
 
     const Seconds in_stage = now - stage_began_;
+    if (stage_ == Stage::HangOn && in_stage > kPatience) {
+        fail("no weight was hung on within three minutes: the motors let go");
+        return glm::dvec3(0.0);
+    }
     glm::dvec3 target(0.0, lift_at(in_stage), 0.0);
     if (stage_ == Stage::Empty && in_stage < kApproachTime) {
         const double share = in_stage / kApproachTime;
@@ -79,8 +78,8 @@ glm::dvec3 Calibration::tick(Instant now, const std::optional<HandleReading>& re
     ticked_at_ = now;
     steady_n_ += kMemory * dt.count() * off;
     steady_n_ = glm::clamp(steady_n_, -kMaxForce, kMaxForce);
-    const glm::dvec3 force =
-        glm::clamp(steady_n_ + kStiffness * off - kDamping * velocity_m_s_, -kMaxForce, kMaxForce);
+    glm::dvec3 force = steady_n_ + kStiffness * off - kDamping * velocity_m_s_;
+    force *= std::min(1.0, kMaxForce / std::max(glm::length(force), 1e-9));
     if (stage_ != Stage::HangOn) measure(in_stage, force.y);
     if (stage_ == Stage::Empty && in_stage >= kSettleTime + kMeasureTime) begin(Stage::HangOn, now);
     if (stage_ == Stage::Loaded && in_stage >= kSettleTime + kMeasureTime) finish();

@@ -31,8 +31,6 @@ class Calibration {
     void weight_hangs();
 
     Stage stage() const { return stage_; }
-    /// Of the stage, 0 to 1.
-    double progress(Instant now) const;
     /// When Done: motor units for a newton metre at the arm.
     double motor_units_per_nm() const { return found_; }
     /// When Done: how far the two halves of the measurement with the weight are apart, as a share of the weight.

@@ -42,7 +42,7 @@ TEST(Driven, ForgetsInAFewCrossingsOfTheTank) {
     driven.start(2.0);
     for (int i = 0; i < 200; ++i) driven.go_on({}, 0.01 * i, 0.01);  // four crossings at 2 m/s
     EXPECT_NEAR(driven.lately_m_s(), 1.0, 0.01);
-    EXPECT_DOUBLE_EQ(driven.through_gaps_m_s(0.01), 2.0 * 2.0) << "the flow that it drove may last";
+    EXPECT_DOUBLE_EQ(driven.through_gaps_m_s(0.01), 3.0 * 2.0) << "the flow that it drove may last";
 }
 
 TEST(Driven, KnowsNoSpeedOfWhatFalls) {
@@ -53,7 +53,7 @@ TEST(Driven, KnowsNoSpeedOfWhatFalls) {
     driven.start(1.0);
     EXPECT_GE(driven.lately_m_s(), 1e30);
     EXPECT_DOUBLE_EQ(driven.through_gaps_m_s(0.01), 5.0 * 0.1 / 0.01) << "five cells in a step";
-    EXPECT_DOUBLE_EQ(driven.through_gaps_m_s(1.0), 2.0 * 1.0 + 9.81) << "or what is known";
+    EXPECT_DOUBLE_EQ(driven.through_gaps_m_s(1.0), 3.0 * 1.0 + 9.81) << "or what is known";
 }
 
 TEST(Driven, IsSuddenWhereAnInflowBeginsOrEndsAndNotWhereItSwells) {
@@ -77,6 +77,36 @@ TEST(Driven, IsSuddenWhereAnInflowBeginsOrEndsAndNotWhereItSwells) {
         any = any || (i > 5 && swelling.is_sudden());
     }
     EXPECT_FALSE(any);
+}
+
+TEST(Driven, IsSuddenInTheStepInWhichAJetBegins) {
+    FluidSetup s = metre_of_fluid();
+    s.sources = {SourceSetup{.velocity_m_s = glm::dvec3(1.0, 0.0, 0.0), .start_s = 0.1}};
+    Driven driven(s);
+    driven.go_on({}, 0.09, 0.01);
+    EXPECT_FALSE(driven.is_sudden()) << "a step that ends as it begins";
+    driven.go_on({}, 0.1, 0.01);
+    EXPECT_TRUE(driven.is_sudden());
+    EXPECT_DOUBLE_EQ(driven.lately_m_s(), 1.0);
+}
+
+TEST(Driven, SeesASmallInlet) {
+    FluidSetup s = metre_of_fluid();
+    s.walls[0] = {.kind = WallKind::Inflow, .velocity_at = [](const glm::dvec3& x, double) {
+                      return glm::length(x - glm::dvec3(0.0, 0.2, 0.2)) < 0.1 ? glm::dvec3(2.0, 0.0, 0.0)
+                                                                              : glm::dvec3(0.0);
+                  }};
+    Driven driven(s);
+    driven.go_on({}, 0.0, 0.01);
+    EXPECT_DOUBLE_EQ(driven.lately_m_s(), 2.0);
+}
+
+TEST(Driven, KnowsNoSpeedOfFluidThatMayFallOutOfTheTank) {
+    FluidSetup s = metre_of_fluid();
+    s.gravity_m_s2 = {0.0, -9.81, 0.0};
+    EXPECT_EQ(Driven(s).lately_m_s(), 0.0);
+    s.walls[2].kind = WallKind::Open;
+    EXPECT_GE(Driven(s).lately_m_s(), 1e30);
 }
 
 TEST(Driven, GoesOnInAnotherFluidAsItDidInTheFirst) {

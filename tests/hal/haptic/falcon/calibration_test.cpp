@@ -54,6 +54,18 @@ TEST(FalconCalibration, FindsTheTrueForceScale) {
     }
 }
 
+TEST(FalconCalibration, LetsGoWhereNobodyHangsTheWeightOn) {
+    Bench bench(10000.0);
+    Calibration calibration(0.1, falcon::kMotorUnitsPerNm);
+    while (bench.rig.now < std::chrono::minutes(5) && calibration.stage() != Stage::Failed) {
+        bench.rig.now += std::chrono::milliseconds(1);
+        bench.rig.driver->poll(bench.rig.now);
+        bench.rig.driver->command(calibration.tick(bench.rig.now, bench.rig.driver->read()));
+    }
+    EXPECT_THAT(calibration.problem(), HasSubstr("three minutes"));
+    EXPECT_EQ(calibration.tick(bench.rig.now, bench.rig.driver->read()), glm::dvec3(0.0));
+}
+
 TEST(FalconCalibration, IsNotMisledByFriction) {
     Bench bench(12000.0, 0.2);
     Calibration calibration(0.1, falcon::kMotorUnitsPerNm);
