@@ -2,6 +2,7 @@
 //
 // Selle, Fedkiw, Kim, Liu, Rossignac 2008, "An unconditionally stable MacCormack method": phi^ is traced forward, phi~
 // traced back from phi^; half their error is taken out. The limiter makes it stable and free of new extremes.
+#include "guard.glsl"
 
 // Least and greatest of the up to eight values around s (cells, centres at +1/2), all channels.
 void donors(sampler2D field, const Layout l, vec3 s, out vec4 least, out vec4 most) {
@@ -14,4 +15,10 @@ void donors(sampler2D field, const Layout l, vec3 s, out vec4 least, out vec4 mo
     vec4 g = texelFetch(field, above + ivec2(low.x, high.y), 0), h = texelFetch(field, above + high.xy, 0);
     least = min(min(min(a, b), min(c, d)), min(min(e, f), min(g, h)));
     most = max(max(max(a, b), max(c, d)), max(max(e, f), max(g, h)));
+}
+
+// Between the two. Where one of them is nothing a field can hold nothing limits, and phi^ stays as it is.
+float limited(float phi, float forward, float least, float most, float most_sound) {
+    bvec4 bad = unsound(vec4(least, most, 0.0, 0.0), most_sound);
+    return any(bad) ? forward : clamp(phi, least, most);  // guard donors
 }

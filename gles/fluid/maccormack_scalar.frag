@@ -30,7 +30,9 @@ void main() {
     donors(scalar, TARGET, x - displacement, least, most);
     float back = sample_linear(forward, TARGET, x + displacement).x;
     // Where the way back leaves the tank through an opening nothing is known of the error.
-    float s = at(forward, TARGET, c).x + 0.5 * from_inside(x + displacement) * (at(scalar, TARGET, c).x - back);
-    float carried = sound(from_inside(x - displacement) * clamp(s, least.x, most.x), kMostScalar);  // guard scalar
+    float ahead = at(forward, TARGET, c).x;
+    float s = ahead + 0.5 * from_inside(x + displacement) * (at(scalar, TARGET, c).x - back);
+    s = limited(s, ahead, least.x, most.x, kMostScalar);
+    float carried = sound(from_inside(x - displacement) * s, kMostScalar);  // guard scalar
     result = remains * carried + from_sources(x);
 }

@@ -32,8 +32,8 @@ float corrected(int component, vec3 s, vec3 displacement, vec4 here, vec4 ahead)
     float back = to_walls(sample_linear(forward, FACES, within_rows(component, s + displacement))[component], component,
                           s + displacement);
     float donor = to_walls(ahead[component], component, s - displacement);
-    return clamp(ahead[component] + 0.5 * (here[component] - back), min(least[component], donor),
-                 max(most[component], donor));
+    return limited(ahead[component] + 0.5 * (here[component] - back), ahead[component], min(least[component], donor),
+                   max(most[component], donor), FARTHEST / dt_h);
 }
 
 void main() {
