@@ -42,6 +42,17 @@ vec4 flows(int wall, vec4 u, ivec3 c, vec3 face) {
 }
 #endif
 
+// Of what goes through the faces of four cells, the walls' share: none where they are closed.
+void at_walls(ivec3 c, vec3 low, vec3 high, inout vec4 xl, inout vec4 xh, inout vec4 yl, inout vec4 yh, inout vec4 zl, inout vec4 zh) {
+    ivec4 z = 4 * c.z + ivec4(0, 1, 2, 3);
+    xl *= c.x > 0 ? 1.0 : low.x;
+    xh *= c.x + 1 < CELLS.x ? 1.0 : high.x;
+    yl *= c.y > 0 ? 1.0 : low.y;
+    yh *= c.y + 1 < CELLS.y ? 1.0 : high.y;
+    zl *= mix(vec4(low.z), vec4(1.0), vec4(greaterThan(z, ivec4(0))));
+    zh *= mix(vec4(high.z), vec4(1.0), vec4(lessThan(z + 1, ivec4(CELLS.z))));
+}
+
 void main() {
     ivec3 c = cell_here(TARGET);
     ivec3 n = CELLS;
@@ -68,17 +79,14 @@ void main() {
     vec4 at_low = vec4(lessThanEqual(z, vec4(0.0))), at_high = vec4(greaterThanEqual(z + 1.0, vec4(n.z)));
     low_z = mix(low_z, flows(4, low_z, c, vec3(0.5, 0.5, 0.0)), at_low);
     high_z = mix(high_z, flows(5, high_z, c, vec3(0.5, 0.5, 1.0)), at_high);
+    // Where fluid goes through; where pressure drives it.
     vec3 open_low = min(OPEN_LOW + INFLOW_LOW, 1.0), open_high = min(OPEN_HIGH + INFLOW_HIGH, 1.0);
+    vec3 free_low = min(OPEN_LOW, 1.0), free_high = min(OPEN_HIGH, 1.0);
 #else
-    const vec3 open_low = vec3(0.0), open_high = vec3(0.0);
+    const vec3 open_low = vec3(0.0), open_high = vec3(0.0), free_low = vec3(0.0), free_high = vec3(0.0);
 #endif
 
-    low_x *= c.x > 0 ? 1.0 : open_low.x;
-    high_x *= c.x + 1 < n.x ? 1.0 : open_high.x;
-    low_y *= c.y > 0 ? 1.0 : open_low.y;
-    high_y *= c.y + 1 < n.y ? 1.0 : open_high.y;
-    low_z *= mix(vec4(open_low.z), vec4(1.0), vec4(greaterThan(z, vec4(0.0))));
-    high_z *= mix(vec4(open_high.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(n.z))));
+    at_walls(c, open_low, open_high, low_x, high_x, low_y, high_y, low_z, high_z);
 
 #ifdef CUT
     vec4 lx = at(ax, FRACTION, c), hx = at(ax, FRACTION, c + ivec3(1, 0, 0));
@@ -100,12 +108,7 @@ void main() {
 #ifdef CUT
     // A cell without an open face has no pressure to answer with: beside a tank's wall a moving solid would seem to pile up. One
     // with hardly any has one that throws the fluid out of it, and shakes the body.
-    lx *= c.x > 0 ? 1.0 : open_low.x;
-    hx *= c.x + 1 < n.x ? 1.0 : open_high.x;
-    ly *= c.y > 0 ? 1.0 : open_low.y;
-    hy *= c.y + 1 < n.y ? 1.0 : open_high.y;
-    lz *= mix(vec4(open_low.z), vec4(1.0), vec4(greaterThan(z, vec4(0.0))));
-    hz *= mix(vec4(open_high.z), vec4(1.0), vec4(lessThan(z + 1.0, vec4(n.z))));
+    at_walls(c, free_low, free_high, lx, hx, ly, hy, lz, hz);
     vec4 a = lx + hx + ly + hy + lz + hz;
 #ifdef AT_REST
     b *= vec4(greaterThan(a, vec4(0.0)));
