@@ -65,6 +65,18 @@ Criterion energy_levels_off() {
     return levels_off([](const History::Look& look) { return look.energy_j; }, 1.1, "kinetic energy");
 }
 
+Criterion energy_levels_off_or_is_small() {
+    return [](const History& history) -> Complaint {
+        double fastest = 0.0;
+        for (const History::Step& step : history.steps)
+            for (const gles::BodyState& body : step.bodies)
+                fastest = std::max(fastest, glm::length(body.velocity_m_s));
+        const double all_j = 0.5 * history.tank.mass_kg() * fastest * fastest;
+        const double last = most(history, 0.75, 1.0, [](const History::Look& look) { return look.energy_j; });
+        return last < 0.1 * all_j ? std::nullopt : energy_levels_off()(history);
+    };
+}
+
 Criterion energy_never_rises() {
     return [](const History& history) -> Complaint {
         double least = std::numeric_limits<double>::infinity();

@@ -16,6 +16,8 @@ Criterion pressure_bounded(double speed_m_s);
 Criterion pressure_levels_off();
 /// The same of kinetic energy, at most 1.1 times.
 Criterion energy_levels_off();
+/// Or it is less than a tenth of that of the tank at the speed of the fastest body, and may still grow.
+Criterion energy_levels_off_or_is_small();
 /// Kinetic energy is never more than 0.1 % above what it was at any look before.
 Criterion energy_never_rises();
 /// The fastest speed is never more than 0.1 % above that at the start.

@@ -6,8 +6,8 @@
 // fetches 11
 //
 // Pushes around the middles of eddies what the transport has smoothed away. N is 0 where |w| has no slope to speak of.
-// Fluid that is faster than 1.5 times what has lately driven it is pushed less, and from twice that on not at all: f goes with
-// the flow, and would feed it without end.
+// Fluid that is faster than what has lately driven it is pushed less, and from 1.5 times that on not at all: f goes with the
+// flow, and would feed it without end.
 #include "velocity.glsl"
 
 uniform sampler2D vorticity, velocity;
@@ -25,6 +25,6 @@ void main() {
     float steepness = length(slope);
     vec3 n = slope / max(steepness, 1e-6 * w.w + 1e-20);
     float speed = length(velocity_in_cell(velocity, c));
-    float share = 1.0 - smoothstep(1.5, 2.0, min(speed / max(driven, 1e-30), 3.0));  // guard confinement
+    float share = 1.0 - smoothstep(1.0, 1.5, min(speed / max(driven, 1e-30), 2.0));  // guard confinement
     result = vec4(share * strength * cross(n, w.xyz), 0.0);
 }

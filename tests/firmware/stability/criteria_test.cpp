@@ -43,6 +43,18 @@ TEST(Criterion, GrowthIsToldFromALevel) {
     EXPECT_TRUE(energy_levels_off()(energy(1.0)));
 }
 
+TEST(Criterion, EnergyFarBelowThatOfABodysSpeedMayGrow) {
+    const auto growing_to = [](double share_of_all) {
+        History history = with_looks(1000, [&](History::Look& look, double share) {
+            look.energy_j = share_of_all * 0.5 * History{}.tank.mass_kg() * share;
+        });
+        history.steps.push_back({.bodies = {{.velocity_m_s = {1.0, 0.0, 0.0}}}});
+        return history;
+    };
+    EXPECT_FALSE(energy_levels_off_or_is_small()(growing_to(0.09)));
+    EXPECT_TRUE(energy_levels_off_or_is_small()(growing_to(0.2)));
+}
+
 TEST(Criterion, EnergyThatRisesIsFoundHoweverLate) {
     const auto kink = [](double rise) {
         return with_looks(1000, [rise](History::Look& look, double share) {
