@@ -16,12 +16,12 @@ vec4 sound(vec4 v, float most) {
     return mix(v, vec4(0.0), unsound(v, most));
 }
 // A pressure to start a step from. In a pocket that a body has sealed (a piston in a tube), or a closed tank with an inflow, none
-// is ever enough and each step adds the same again. Beyond a limit far from any flow's, a tenth of the excess is dropped in each
-// step: it ends at ten times what one adds. All of it at once would bend the pressure inside the pocket, and stir it.
+// is ever enough and each step adds the same again. Beyond a limit far from any flow's, a fifth of the excess is dropped in each
+// step: it ends at five times what one adds. Half of it at once would bend the pressure inside the pocket, and stir it.
 vec4 kept(vec4 phi, float most) {
-    float limit = 0.125 * most;
+    float limit = 0.0625 * most;
     vec4 p = sound(phi, most);
-    return p - 0.1 * (p - clamp(p, -limit, limit));  // guard pocket
+    return p - 0.2 * (p - clamp(p, -limit, limit));  // guard pocket
 }
 vec3 sound(vec3 v, float most) {
     return sound(vec4(v, 0.0), most).xyz;

@@ -34,7 +34,7 @@ inline constexpr double kFluidLengths = 10.0;
 struct Sound {
     float fastest_m_s;  ///< of the fluid
     float
-        most_phi;  ///< of dt p / (rho h) [m/s]; of what is a pressure, an eighth is kept for the next step at most
+        most_phi;  ///< of dt p / (rho h) [m/s]; of what is a pressure, a sixteenth is kept whole for the next step
 };
 Sound sound(const FluidSetup& setup, double dt_s);
 /// Of a body's centre; of its surface, by turning.

@@ -8,15 +8,16 @@ namespace eddy::gles {
 namespace {
 
 // Validation cases 6, 7 and 20: nowhere for the fluid to go, and no pressure that would be enough. What stops the pressure is
-// a limit on what of it a step keeps (guard.glsl): that of a flow which crosses the tank in a step, rho (L / dt)^2.
+// a limit on what of it a step keeps (guard.glsl): half of that of a flow which crosses the tank in a step, rho (L / dt)^2.
 
 using PocketsTest = GlTest;
 
-constexpr double kStepS = 0.02, kSideM = 0.16, kLimitPa = 1000.0 * (kSideM / kStepS) * (kSideM / kStepS);
+constexpr double kStepS = 0.02, kSideM = 0.16,
+                 kLimitPa = 0.5 * 1000.0 * (kSideM / kStepS) * (kSideM / kStepS);
 
 constexpr double kSqueezeMS = 0.5;
-/// Where it ends: ten times what a step adds at that speed is more.
-constexpr double kMostPa = 3.0 * kLimitPa;
+/// Where it ends: five times what a step adds at that speed is more.
+constexpr double kMostPa = 4.0 * kLimitPa;
 
 FluidSetup water(double viscosity_pa_s = 0.0) {
     FluidSetup s;
@@ -60,13 +61,13 @@ void fill_up_to(const Fluid& fluid, double share) {
         std::vector<float>(4 * texels, static_cast<float>(share * limit)).data());
 }
 
-/// Squeezed near the limit for two seconds and for one more: not a bit more.
+/// Squeezed near the limit for two seconds and for one more: not a bit more, or below it.
 void expect_bounded(Fluid& fluid, const BodyState& body) {
     press(fluid, 1, body);
     fill_up_to(fluid, 0.97);
     const Pressed once = press(fluid, 100, body), twice = press(fluid, 50, body);
     EXPECT_LT(twice.pressure_pa, kMostPa);
-    EXPECT_LT(twice.pressure_pa, 1.05 * once.pressure_pa + 1.0);
+    EXPECT_LT(twice.pressure_pa, std::max(kLimitPa, 1.05 * once.pressure_pa));
     EXPECT_LT(glm::length(twice.force_n), 2.0 * kMostPa * kSideM * kSideM)
         << "both sides of a wall to wall piston";
     EXPECT_LT(twice.fastest_m_s, 3.0 * kSqueezeMS);  // measured: 2.7 times
@@ -112,6 +113,21 @@ TEST_F(PocketsTest, ABodyThatCoversTheInflowPartlyOrWhollyIsPushedWithABoundedFo
         const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
         expect_bounded(*fluid, at({x_m, 0.5 * kSideM, 0.5 * kSideM}));
     }
+}
+
+TEST_F(PocketsTest, ALidOnPartOfTheInflowIsPushedNoHarderThanAStreamCan) {
+    // What flows in where nothing is open asks nothing of the pressure. 8.5 N were measured; 19 N if it does.
+    FluidSetup setup = water();
+    setup.walls[0] = {.kind = WallKind::Inflow, .velocity_m_s = {{"0.1", "0.0", "0.0"}}};
+    setup.walls[1] = {.kind = WallKind::Open};
+    setup.bodies = {BodySetup{Cuboid{{0.048, 0.096, 0.096}}}};
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    double most_n = 0.0;
+    for (double x_m = 0.03; x_m > 0.0; x_m -= 0.001) {
+        const BodyState lid = at({x_m, 0.08, 0.08}, {-0.001 / (3.0 * kStepS), 0.0, 0.0});
+        most_n = std::max(most_n, glm::length(press(*fluid, 3, lid).force_n));
+    }
+    EXPECT_LT(most_n, 10.0);
 }
 
 TEST_F(PocketsTest, WhenAPocketOpensTheFluidComesToRest) {
