@@ -30,6 +30,14 @@ double most(const History& history, double from, double to, Figure figure) {
     return found;
 }
 
+/// What it takes to set the tank going at a speed in one step, and the pressure of a stream of that speed.
+double setting_off_pa(const History& history, double speed_m_s) {
+    const Tank& tank = history.tank;
+    double longest_dt_s = 0.0;
+    for (const History::Step& step : history.steps) longest_dt_s = std::max(longest_dt_s, step.dt_s);
+    return tank.density_kg_m3 * (speed_m_s * speed_m_s + speed_m_s * tank.longest_m() / longest_dt_s);
+}
+
 Criterion levels_off(double (*figure)(const History::Look&), double factor, const char* what) {
     return [=](const History& history) -> Complaint {
         if (history.planned_steps < kLongEnough) return {};
@@ -44,11 +52,7 @@ Criterion levels_off(double (*figure)(const History::Look&), double factor, cons
 
 Criterion pressure_bounded(double speed_m_s) {
     return [=](const History& history) -> Complaint {
-        const Tank& tank = history.tank;
-        double longest_dt_s = 0.0;
-        for (const History::Step& step : history.steps) longest_dt_s = std::max(longest_dt_s, step.dt_s);
-        const double scale =
-            tank.density_kg_m3 * (speed_m_s * speed_m_s + speed_m_s * tank.longest_m() / longest_dt_s);
+        const double scale = setting_off_pa(history, speed_m_s);
         const double found = most(history, 0.0, 1.0, pressure_of);
         if (found <= 100.0 * scale) return {};
         return fmt::format(
@@ -59,6 +63,14 @@ Criterion pressure_bounded(double speed_m_s) {
 
 Criterion pressure_levels_off() {
     return levels_off(pressure_of, 1.5, "pressure");
+}
+
+Criterion pressure_levels_off_or_is_small(double speed_m_s) {
+    return [=](const History& history) -> Complaint {
+        const double last = most(history, 0.75, 1.0, pressure_of);
+        return last < 10.0 * setting_off_pa(history, speed_m_s) ? std::nullopt
+                                                                : pressure_levels_off()(history);
+    };
 }
 
 Criterion energy_levels_off() {

@@ -14,6 +14,8 @@ using Criterion = std::function<std::optional<std::string>(const History&)>;
 Criterion pressure_bounded(double speed_m_s);
 /// The largest |p| of the last quarter is at most 1.5 times that of the quarter before.
 Criterion pressure_levels_off();
+/// Or it is less than ten times what it takes to set the tank going at that speed in a step, and may still grow.
+Criterion pressure_levels_off_or_is_small(double speed_m_s);
 /// The same of kinetic energy, at most 1.1 times.
 Criterion energy_levels_off();
 /// Or it is less than a tenth of that of the tank at the speed of the fastest body, and may still grow.
