@@ -12,21 +12,33 @@ namespace eddy::stability {
 namespace {
 
 constexpr const char* kHead =
-    "run,steps,mean_pressure_pa,smoke_m3,kinetic_energy_j,mean_force_n,mean_sent_n,memory_mib,textures_mib,"
+    "run,steps,mean_pressure_pa,pressure_scale_pa,smoke_m3,kinetic_energy_j,mean_force_n,mean_sent_n,memory_"
+    "mib,textures_mib,"
     "textures_made,programs,framebuffers\n";
 
 /// Samples of a run in the report.
 constexpr std::size_t kShown = 6;
 
 LongRunSample sample_from(std::istringstream& fields) {
-    std::array<double, 11> v{};
+    std::array<double, 12> v{};
     std::string field;
     for (double& value : v) {
         std::getline(fields, field, ',');
         value = std::stod(field);
     }
     const auto count = [&](std::size_t i) { return static_cast<std::size_t>(v[i]); };
-    return {static_cast<long>(v[0]), v[1], v[2], v[3], v[4], v[5], v[6], v[7], count(8), count(9), count(10)};
+    return {static_cast<long>(v[0]),
+            v[1],
+            v[2],
+            v[3],
+            v[4],
+            v[5],
+            v[6],
+            v[7],
+            v[8],
+            count(9),
+            count(10),
+            count(11)};
 }
 
 std::size_t objects(const LongRunSample& s) {
@@ -50,10 +62,11 @@ std::string csv_of(std::span<const LongRun> runs) {
     std::string text = kHead;
     for (const LongRun& run : runs)
         for (const LongRunSample& s : run.samples)
-            text += fmt::format("\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.2f},{:.2f},{},{},{}\n",
-                                run.what, s.steps, s.pressure_mean_pa, s.smoke_total_m3, s.kinetic_energy_j,
-                                s.force_mean_n, s.sent_mean_n, s.memory_mib, s.texture_mib, s.textures_made,
-                                s.programs, s.framebuffers);
+            text +=
+                fmt::format("\"{}\",{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.2f},{:.2f},{},{},{}\n",
+                            run.what, s.steps, s.pressure_mean_pa, s.pressure_scale_pa, s.smoke_total_m3,
+                            s.kinetic_energy_j, s.force_mean_n, s.sent_mean_n, s.memory_mib, s.texture_mib,
+                            s.textures_made, s.programs, s.framebuffers);
     return text;
 }
 

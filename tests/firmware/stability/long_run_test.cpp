@@ -21,8 +21,7 @@ TEST_F(LongRunTest, IsFlatWhileSomebodyStirs) {
     ASSERT_EQ(samples.size(), 2u);
     EXPECT_GT(samples[0].force_mean_n, 0.0);
     EXPECT_GT(samples[0].sent_mean_n, 0.0);
-    // The mean pressure of a closed tank is known to: each step starts from the last one's pressure.
-    EXPECT_THAT(drifts(samples), testing::Each(HasSubstr("mean pressure")));
+    EXPECT_EQ(drifts(samples), std::vector<std::string>());
 }
 
 TEST_F(LongRunTest, AtRestNothingIsFelt) {
@@ -57,13 +56,19 @@ TEST(LongRunReport, ItsCsvReadsBackAndItsSectionSaysWhatDrifts) {
 }
 
 TEST(Drifts, AreNamed) {
-    const LongRunSample first{.steps = 100, .force_mean_n = 1.0, .memory_mib = 50.0, .textures_made = 7};
+    const LongRunSample first{.steps = 100,
+                              .pressure_scale_pa = 1000.0,
+                              .force_mean_n = 1.0,
+                              .memory_mib = 50.0,
+                              .textures_made = 7};
     LongRunSample last = first;
     EXPECT_TRUE(drifts({first, last}).empty());
+    last.pressure_mean_pa = -0.05;
+    EXPECT_TRUE(drifts({first, last}).empty()) << "noise about 0";
     last.force_mean_n = 1.2;
     last.memory_mib = 60.0;
     last.textures_made = 8;
-    last.pressure_mean_pa = 0.1;
+    last.pressure_mean_pa = 0.2;
     EXPECT_EQ(drifts({first, last}).size(), 4u);
     last.smoke_total_m3 = NAN;
     EXPECT_EQ(drifts({first, last}).size(), 5u);
