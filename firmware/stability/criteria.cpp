@@ -10,8 +10,6 @@ namespace {
 
 using Complaint = std::optional<std::string>;
 
-/// After these an impulsive start is over.
-constexpr long kSettlingSteps = 10;
 /// Of shorter runs nobody can say whether something levels off.
 constexpr long kLongEnough = 400;
 

@@ -10,6 +10,9 @@ namespace eddy::stability {
 // What single cases want besides the rule. Each gives a criterion that says in words what is wrong, or nothing.
 using Criterion = std::function<std::optional<std::string>(const History&)>;
 
+/// After these an impulsive start is over.
+inline constexpr long kSettlingSteps = 10;
+
 /// |p| <= 100 rho (U^2 + U L / dt): a hundred times what it takes to bring the tank to the speed U in a step.
 Criterion pressure_bounded(double speed_m_s);
 /// The largest |p| of the last quarter is at most 1.5 times that of the quarter before.
@@ -24,7 +27,7 @@ Criterion energy_levels_off_or_is_small();
 Criterion energy_never_rises();
 /// The fastest speed is never more than 0.1 % above that at the start.
 Criterion speed_never_rises();
-/// speed <= 1.5 sqrt(2 g' L), g' being what smoke and heat in the tank make of gravity; `lightness` for a unit of heat.
+/// speed <= 1.5 sqrt(2 g' L), g' being what heat in the tank makes of gravity; `expansion_1_k`: lighter by a kelvin.
 Criterion no_faster_than_a_fall(double expansion_1_k);
 /// Bodies do no negative work in all: the fluid gives back no more than it got.
 Criterion gives_back_no_more();
@@ -32,7 +35,7 @@ Criterion gives_back_no_more();
 Criterion volume_balances(double share);
 /// From one step to the next the force on body `i` changes by less than this share of its peak, after the first `settling`.
 Criterion force_is_continuous(std::size_t i, double share, long settling);
-/// The force on the hand is 0 so long after the fluid last answered, as long as it does not answer.
+/// While the fluid does not answer, the force on the hand is 0 so long after the first missing answer was due: a step after the last.
 Criterion hand_let_go(double within_s);
 /// This many seconds after the last disturbance the force is down to 2 % of its peak.
 Criterion force_recovers(double within_s);

@@ -12,9 +12,6 @@ namespace {
 
 using Complaint = std::optional<std::string>;
 
-/// After these an impulsive start is over.
-constexpr long kSettlingSteps = 10;
-
 /// Of the ball in the common scene.
 double ball_radius_m(const Tank& tank) {
     return 0.2 * tank.cell_m * std::min({tank.cells.x, tank.cells.y, tank.cells.z});
@@ -114,12 +111,14 @@ Criterion force_is_continuous(std::size_t i, double share, long settling) {
 
 Criterion hand_let_go(double within_s) {
     return [=](const History& history) -> Complaint {
-        double answered_s = 0.0;
+        const double period_s = history.steps.empty() ? 0.0 : history.steps.front().dt_s;
+        double due_s = 0.0;
         for (const History::Tick& tick : history.ticks) {
-            if (tick.answered) answered_s = tick.time_s;
-            if (tick.time_s - answered_s > within_s + 1e-6 && tick.force_n > 0.0)
-                return fmt::format("{:.0f} ms after the last answer the hand still gets {:.2g} N",
-                                   1e3 * (tick.time_s - answered_s), tick.force_n);
+            if (tick.answered) due_s = tick.time_s + period_s;
+            if (tick.time_s - due_s > within_s + 1e-6 && tick.force_n > 0.0)
+                return fmt::format(
+                    "{:.0f} ms after an answer was due that did not come the hand still gets {:.2g} N",
+                    1e3 * (tick.time_s - due_s), tick.force_n);
         }
         return {};
     };
@@ -254,7 +253,8 @@ Criterion loads_stay_finite() {
 
 Criterion no_time_no_news() {
     return [](const History& history) -> Complaint {
-        const double nominal_s = history.steps.front().dt_s, peak = peak_force_n(history);
+        const double nominal_s = history.steps.empty() ? 0.0 : history.steps.front().dt_s;
+        const double peak = peak_force_n(history);
         for (std::size_t n = 1; n < history.steps.size(); ++n) {
             const History::Step &last = history.steps[n - 1], &now = history.steps[n];
             if (now.dt_s > 1e-3 * nominal_s || now.loads.empty()) continue;
@@ -277,6 +277,7 @@ Criterion no_other_lines(double frequency_hz) {
                 force.push_back(step.loads[0].force_n.x);
                 dt_s = step.dt_s;
             }
+        if (force.empty() || !(dt_s > 0.0)) return {};
         force.erase(force.begin(), force.begin() + static_cast<std::ptrdiff_t>(force.size() / 2));
         const auto period = static_cast<std::size_t>(std::lround(1.0 / (frequency_hz * dt_s)));
         const std::size_t periods = force.size() / period, n = periods * period;

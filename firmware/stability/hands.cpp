@@ -145,7 +145,7 @@ std::vector<Case> hand_cases() {
                      .name = "no-answer",
                      .title = "the fluid does not answer for a second, again and again",
                      .provokes = "the last force is held for ever",
-                     .wants = "the hand's force is 0 within 100 ms",
+                     .wants = "the hand's force is 0 within 100 ms of when the first missing answer was due",
                      .drive = Drive::Hand,
                      .script = [](Moment& m) { m.holds_answer = m.disturbs() && m.step % 120 >= 70; },
                      .complaint = hand_let_go(0.1)});

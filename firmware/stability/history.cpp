@@ -1,7 +1,6 @@
 #include "firmware/stability/history.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace eddy::stability {
 namespace {
@@ -35,9 +34,6 @@ History::Look look_at(const Tank& tank, const Fields& fields, long step) {
                        .smoke = range_of(fields.smoke),
                        .temperature_k = range_of(fields.temperature_k),
                        .non_finite = non_finite_texels(fields)};
-    if (!fields.pressure_pa.empty())
-        look.mean_pressure_pa = std::accumulate(fields.pressure_pa.begin(), fields.pressure_pa.end(), 0.0) /
-                                static_cast<double>(fields.pressure_pa.size());
     if (tank.staggered)
         for (int c = 0; c < 3; ++c) add_walls(tank, fields, c, look);
     return look;

@@ -23,7 +23,6 @@ struct History {
         double speed_m_s = 0.0;
         double energy_j = 0.0;
         FieldRange pressure_pa = {};
-        double mean_pressure_pa = 0.0;
         FieldRange smoke = {}, temperature_k = {};
         double in_m3_s = 0.0, net_m3_s = 0.0;  ///< through the walls: what comes in; that less what goes out
         long non_finite = 0;

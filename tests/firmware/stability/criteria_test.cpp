@@ -115,10 +115,12 @@ TEST(Criterion, TheHandIsLetGoInTime) {
             const double t = 1e-3 * ms;
             history.ticks.push_back({t, t < until_s ? 1.0 : 0.0, t < 0.2});
         }
+        history.steps = {{.dt_s = 0.02}};
         return history;
     };
-    EXPECT_FALSE(hand_let_go(0.1)(fading(0.29)));
-    EXPECT_TRUE(hand_let_go(0.1)(fading(0.31)));
+    // The last answer came at 0.2 s, so that the first that is missing was due at 0.22 s.
+    EXPECT_FALSE(hand_let_go(0.1)(fading(0.315)));
+    EXPECT_TRUE(hand_let_go(0.1)(fading(0.325)));
 }
 
 TEST(Criterion, ForcesAfterAResetAreComparedBitForBit) {
@@ -192,6 +194,12 @@ TEST(Remark, SaysWhatStepsTakeWhenNumbersAreSmall) {
     for (std::size_t n = 0; n < 100; ++n) history.steps[n].wall_s = n < 20 ? 0.01 : 0.015;
     EXPECT_EQ(remark_on_time()(history),
               "a step of the last fifth takes 1.50 times as long as one of the first");
+}
+
+TEST(Criterion, OfARunWithoutAStepNothingIsWrong) {
+    EXPECT_FALSE(no_time_no_news()({}));
+    EXPECT_FALSE(no_other_lines(10.0)({}));
+    EXPECT_FALSE(hand_let_go(0.1)({}));
 }
 
 TEST(Criterion, OfAllTheFirstThatFailsIsNamed) {
