@@ -1,18 +1,12 @@
 #include "gles/fluid/health.h"
 
-#include <fmt/format.h>
-
 #include "gles/fluid/results.h"
 
 namespace eddy::gles {
 namespace {
 
-/// Texels of a row that one fragment looks at: few enough that a graphics card has all its lanes at work.
-constexpr int kRun = 8;
-
 Variant variant_of(const FluidSetup& setup) {
-    Variant v{.layouts = {{"SCALARS", Cells::layout(setup.cells)}},
-              .defines = {{"RUN", fmt::format("{}", kRun)}}};
+    Variant v{.layouts = {{"SCALARS", Cells::layout(setup.cells)}}};
     if (setup.smoke) v.defines.emplace_back("SMOKE", "");
     if (setup.temperature && setup.solver.method == Method::CutCell)
         v.defines.emplace_back("TEMPERATURE", "");
@@ -42,9 +36,8 @@ HealthCheck::HealthCheck(Gpu& gpu, const FluidSetup& setup)
 HealthCheck::HealthCheck(Gpu& gpu, const FluidSetup& setup, const glm::ivec3& texels, Variant variant)
     : gpu_(&gpu),
       to_(Results::health_texel(setup)),
-      layout_(AtlasLayout::tile({(texels.x + kRun - 1) / kRun, texels.y, texels.z})),
-      count_(gpu, "health", "gles/fluid/health.frag", layout_, variant),
-      sum_(gpu, "reduce health", layout_.texels(), {Results::width(setup), 1}, "vec4(0.0, 0.0, 0.0, 1.0)") {}
+      count_(gpu, "health", "gles/fluid/health.frag", texels, std::move(variant), {Results::width(setup), 1},
+             "vec4(0.0, 0.0, 0.0, 1.0)") {}
 
 void HealthCheck::draw(const State& state, const Sound& sound, const Texture& row) {
     Gpu::Stage stage(*gpu_, "health");
@@ -56,9 +49,7 @@ void HealthCheck::draw(const State& state, const Sound& sound, const Texture& ro
     }
     if (state.smoke) inputs.push_back({"smoke", &state.smoke->texture()});
     if (state.temperature) inputs.push_back({"temperature", &state.temperature->texture()});
-    const TexturePool::Lease counts = gpu_->textures().lease(layout_.texels(), Format::RGBA32F);
-    count_.draw(inputs, {{"fastest", sound.fastest_m_s}, {"most_phi", sound.most_phi}}, {&*counts});
-    sum_.draw(*counts, row, to_);
+    count_.draw(inputs, {{"fastest", sound.fastest_m_s}, {"most_phi", sound.most_phi}}, row, to_);
 }
 
 }  // namespace eddy::gles

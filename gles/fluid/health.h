@@ -3,7 +3,7 @@
 
 #include "gles/field.h"
 #include "gles/fluid/step_guard.h"
-#include "gles/reduce.h"
+#include "gles/row_sum.h"
 
 namespace eddy::gles {
 
@@ -31,9 +31,7 @@ class HealthCheck {
 
     Gpu* gpu_;
     glm::ivec2 to_;  ///< texel of the row
-    AtlasLayout layout_;
-    Pass count_;
-    Reduce sum_;
+    RowSum count_;
 };
 
 }  // namespace eddy::gles

@@ -1,8 +1,7 @@
 #pragma once
 #include "gles/field.h"
 #include "gles/fluid/setup.h"
-#include "gles/pass.h"
-#include "gles/reduce.h"
+#include "gles/row_sum.h"
 
 namespace eddy::gles {
 
@@ -20,9 +19,7 @@ class PressureLevel {
 
   private:
     Gpu* gpu_;
-    AtlasLayout rows_;
-    Pass add_up_;
-    Reduce sum_;
+    RowSum sum_;
     Pass subtract_;
 };
 

@@ -1,22 +1,12 @@
 #include "gles/fluid/transport_energy.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace eddy::gles {
 namespace {
 
-constexpr int kRun = 8;  // texels of a row that one fragment adds up
-
 Variant variant_of(const FluidSetup& setup) {
-    return {.layouts = {{"FACES", Faces::layout(setup.cells)}},
-            .defines = {{"RUN", fmt::format("{}", kRun)}, {"CELLS", glsl(setup.cells)}}};
-}
-
-AtlasLayout rows_of(const FluidSetup& setup) {
-    const glm::ivec3 faces = Faces::layout(setup.cells).size;
-    return AtlasLayout::tile({(faces.x + kRun - 1) / kRun, faces.y, faces.z});
+    return {.layouts = {{"FACES", Faces::layout(setup.cells)}}, .defines = {{"CELLS", glsl(setup.cells)}}};
 }
 
 }  // namespace
@@ -24,7 +14,10 @@ AtlasLayout rows_of(const FluidSetup& setup) {
 bool TransportEnergy::needed(const FluidSetup& setup) {
     const bool makes = setup.solver.advection == Advection::MacCormack || setup.solver.time_order == 2;
     const WallSetup still;
-    return makes && std::all_of(setup.walls.begin(), setup.walls.end(), [&](const WallSetup& wall) {
+    // Where friction is so strong that it never acts, not even in the shortest step, there is nothing to draw.
+    const bool may_act = acts(diffusion_number(setup, setup.shortest_step_s));
+    return makes && may_act &&
+           std::all_of(setup.walls.begin(), setup.walls.end(), [&](const WallSetup& wall) {
                const bool closed = wall.kind == WallKind::Slip || wall.kind == WallKind::NoSlip;
                return closed && wall.velocity_m_s.glsl == still.velocity_m_s.glsl;
            });
@@ -32,17 +25,14 @@ bool TransportEnergy::needed(const FluidSetup& setup) {
 
 TransportEnergy::TransportEnergy(Gpu& gpu, const FluidSetup& setup)
     : gpu_(&gpu),
-      rows_(rows_of(setup)),
-      add_up_(gpu, "transport energy", "gles/fluid/transport_energy.frag", rows_, variant_of(setup)),
-      sum_(gpu, "reduce transport energy", rows_.texels(), {1, 1}),
+      sum_(gpu, "transport energy", "gles/fluid/transport_energy.frag", Faces::layout(setup.cells).size,
+           variant_of(setup)),
       scale_(gpu, "keep energy", "gles/fluid/keep_energy.frag", Faces::layout(setup.cells)) {}
 
 Field<Faces> TransportEnergy::keep(Field<Faces> u_star, const Field<Faces>& before) {
-    const TexturePool::Lease rows = gpu_->textures().lease(rows_.texels(), Format::RGBA32F);
     const TexturePool::Lease energy = gpu_->textures().lease({1, 1}, Format::RGBA32F);
     // guard transport_energy
-    add_up_.draw({{"before", &before.texture()}, {"after", &u_star.texture()}}, {}, {&*rows});
-    sum_.draw(*rows, *energy, {0, 0});
+    sum_.draw({{"before", &before.texture()}, {"after", &u_star.texture()}}, {}, *energy);
     Field<Faces> kept(*gpu_, u_star.cells(), Format::RGBA32F);
     scale_.draw({{"velocity", &u_star.texture()}, {"energy", &*energy}}, {}, {&kept.texture()});
     return kept;

@@ -1,8 +1,7 @@
 #pragma once
 #include "gles/field.h"
 #include "gles/fluid/setup.h"
-#include "gles/pass.h"
-#include "gles/reduce.h"
+#include "gles/row_sum.h"
 
 namespace eddy::gles {
 
@@ -12,7 +11,7 @@ namespace eddy::gles {
 class TransportEnergy {
   public:
     TransportEnergy(Gpu& gpu, const FluidSetup& setup);
-    /// Whether a fluid may need it: where transport makes energy, and no wall brings any in.
+    /// Whether a fluid may need it: where transport makes energy, no wall brings any in, and friction is little enough.
     static bool needed(const FluidSetup& setup);
 
     /// Whether it does at this nu dt / h^2. From 0.001 on friction takes 1 % and more of what is as small as cells in a step;
@@ -25,9 +24,7 @@ class TransportEnergy {
 
   private:
     Gpu* gpu_;
-    AtlasLayout rows_;
-    Pass add_up_;
-    Reduce sum_;
+    RowSum sum_;
     Pass scale_;
 };
 
