@@ -15,8 +15,6 @@ namespace {
 /// an inflow begins or ends.
 constexpr int kColdCycles = 3;
 
-constexpr double kNoLimit = 1e30;  // m/s
-
 /// From here on a fluid is so thick that one V-cycle of the viscous term leaves more than the next step's pressure can mend: at
 /// 1000, with one for the pressure too, eddies at rest walls grew 1.2 times a step on 25^3 cells.
 constexpr float kThick = 100.0f;

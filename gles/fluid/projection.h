@@ -7,6 +7,9 @@
 
 namespace eddy::gles {
 
+/// A speed [m/s] that limits nothing, and is a number still when multiplied by a few.
+inline constexpr double kNoLimit = 1e30;
+
 /// Between the velocities on faces and the pressures in cells: divergence, and the gradient taken off. Both are drawn over
 /// the whole grid as if nothing solid were in it, then again, with the fluid's share of each face, over the boxes around
 /// bodies.
@@ -21,8 +24,8 @@ class Projection {
     Field<Cells4> divergence(const Field<Faces>& u, double through_gaps_m_s, const std::vector<Box>& boxes,
                              const Uniform& wall_time);
     struct Limits {
-        float most_phi = 0.0f;           ///< beyond it a phi counts as 0 (step_guard.h)
-        double through_gaps_m_s = 1e30;  ///< see Driven
+        float most_phi = 0.0f;               ///< beyond it a phi counts as 0 (step_guard.h)
+        double through_gaps_m_s = kNoLimit;  ///< see Driven
     };
     /// u - scale grad phi, and on walls and in solids their velocity. Where there is no viscous step that would start with the
     /// pressure of the last one, phi is always this step's and `scale` must be 1: the shader has none.
