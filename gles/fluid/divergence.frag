@@ -92,7 +92,7 @@ void main() {
     vec4 lx = at(ax, FRACTION, c), hx = at(ax, FRACTION, c + ivec3(1, 0, 0));
     vec4 ly = at(ay, FRACTION, c), hy = at(ay, FRACTION, c + ivec3(0, 1, 0));
     vec4 lz = at(az, FRACTION, c), hz = upper_z(az, FRACTION, c, lz);
-    // A body goes through the tank's walls as it goes through any face; else it would press on what is left beside it there.
+    // guard solid_through_wall: a body goes through walls as through any face; else it would press on what is left beside it there.
     for (int lane = 0; lane < 4; ++lane) {
         vec3 x = vec3(c.xy, z[lane]);
         low_x[lane] = mix(solid_velocity(x + vec3(0.0, 0.5, 0.5)).x, low_x[lane], lx[lane]);

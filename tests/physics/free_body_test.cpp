@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gles/body/bounds.h"
 #include "tests/physics/tank.h"
 
 namespace eddy::gles {
@@ -136,6 +137,26 @@ TEST_F(FreeBody, IsStoppedByTheWallsAndStaysThere) {
     const BodyState& ball = fluid->bodies()[0];
     EXPECT_NEAR(ball.centre_m.y, 4.6, 1e-9) << "one cell above the floor";
     EXPECT_NEAR(ball.velocity_m_s.y, 0.0, 1e-7);
+}
+
+TEST_F(FreeBody, IsTurnedNoFasterThanAStepCanFollow) {
+    // Layers of fluid that cross the tank five times in a step, one way above and the other below, and a light rod across them.
+    constexpr double kDt = 0.1;
+    FluidSetup setup = well(Capsule{1.5, 6.0}, 0.01, 0.0, 16);
+    setup.velocity_at_start = [](const glm::dvec3& x) {
+        return glm::dvec3(0.0, 0.0, 5.0 * 16.0 / kDt * (x.y / 8.0 - 1.0));
+    };
+    const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+    double fastest = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        fluid->step(kDt, {{.centre_m = glm::dvec3(8.0)}}, false);
+        const BodyState& rod = fluid->bodies()[0];
+        fastest = std::max({fastest, bounding_radius_m(setup.bodies[0].shape) * glm::length(rod.spin_rad_s),
+                            glm::length(rod.velocity_m_s)});
+    }
+    record("longest_sides_a_step", fastest * kDt / 16.0);
+    EXPECT_LE(fastest * kDt, 16.0 * (1.0 + 1e-9));
+    EXPECT_GT(fastest * kDt, 8.0) << "something turns it";
 }
 
 TEST_F(FreeBody, ComesToLieOnTheFloorWhenItIsALongRod) {

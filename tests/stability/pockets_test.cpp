@@ -153,9 +153,13 @@ TEST_F(PocketsTest, ABodyThatLeavesAClosedTankStirsItNoFasterThanItGoes) {
         setup.cell_m = kSideM / cells;
         setup.bodies = {BodySetup{Sphere{0.032}}};
         const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
-        for (double x = 0.08; x < 0.24; x += kStepS * kSpeedMS)
-            EXPECT_LT(press(*fluid, 1, at({x, 0.08, 0.08}, {kSpeedMS, 0.0, 0.0})).fastest_m_s, 5.0 * kSpeedMS)
+        for (double x = 0.08; x < 0.24; x += kStepS * kSpeedMS) {
+            // Measured: 4.4 times for a step, as the last gap before the wall closes; from half way out on 1.4 times, and 4.7 without
+            // the guard.
+            const double most_m_s = (x < 0.15 ? 5.0 : 2.0) * kSpeedMS;
+            EXPECT_LT(press(*fluid, 1, at({x, 0.08, 0.08}, {kSpeedMS, 0.0, 0.0})).fastest_m_s, most_m_s)
                 << cells << " cells, at " << x;
+        }
     }
 }
 

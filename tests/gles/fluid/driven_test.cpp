@@ -126,11 +126,14 @@ TEST(Driven, GoesOnInAnotherFluidAsItDidInTheFirst) {
 }
 
 TEST(Driven, AWallWithoutAValueRests) {
-    FluidSetup s = metre_of_fluid();
-    s.walls[0] = blowing([](double) { return std::numeric_limits<double>::quiet_NaN(); });
-    Driven driven(s);
-    driven.go_on({}, 0.0, 0.02);
-    EXPECT_EQ(driven.lately_m_s(), 0.0);
+    for (const double none :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        FluidSetup s = metre_of_fluid();
+        s.walls[0] = blowing([none](double) { return none; });
+        Driven driven(s);
+        driven.go_on({}, 0.0, 0.02);
+        EXPECT_EQ(driven.lately_m_s(), 0.0) << none;
+    }
 }
 
 }  // namespace
