@@ -2,13 +2,12 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <csignal>
 #include <functional>
 
 #include "firmware/haptic/loop.h"
 #include "firmware/haptic/realtime.h"
 #include "firmware/verbs/real_falcon.h"
+#include "firmware/verbs/stop.h"
 #include "firmware/verbs/verbs.h"
 #include "hal/haptic/falcon/calibration.h"
 
@@ -17,15 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using falcon::Calibration;
-
-std::atomic<bool> g_stop{false};
-
-void stop_on_signals() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { g_stop = true; };
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-}
 
 FalconConfig config_for(const FalconOptions& options) {
     FalconConfig config = load_exhibit().exhibit.falcon;
@@ -51,7 +41,7 @@ void drive(HapticDevice& device, const std::function<bool(Instant)>& tick) {
     RealClock clock;
     HapticState state = HapticState::Fault;
     std::string said;
-    for (Instant due = clock.now() + kTick; !g_stop; due = std::max(due + kTick, clock.now())) {
+    for (Instant due = clock.now() + kTick; !asked_to_stop(); due = std::max(due + kTick, clock.now())) {
         clock.sleep_until(due);
         const Instant now = clock.now();
         device.poll(now);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <cstring>
 #include <functional>
 #include <thread>
@@ -22,6 +21,7 @@
 #include "firmware/stopwatch.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/run_device.h"
+#include "firmware/verbs/stop.h"
 #include "firmware/views.h"
 
 namespace eddy {
@@ -42,15 +42,6 @@ constexpr Instant kRestPeriod = 500ms;
 constexpr long kMeasureEvery = 20;
 /// Recording pictures may take this share of the time; the fluid has the rest.
 constexpr double kRenderShare = 0.4;
-
-std::atomic<bool> g_stop{false};
-
-void stop_on_signals() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { g_stop = true; };
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-}
 
 void require_no_screen(DisplayChoice choice) {
     if (choice == DisplayChoice::Kms)
@@ -345,7 +336,7 @@ void Run::real() {
     const Instant period = std::chrono::duration_cast<Instant>(Seconds(scene_.solver.dt_s));
     const Instant frame_period = std::chrono::duration_cast<Instant>(Seconds(1.0 / options_.frames_per_s));
     Instant last = clock.now(), now = last;
-    while (!g_stop && now < end()) {
+    while (!asked_to_stop() && now < end()) {
         clock.sleep_until(last + period);
         now = clock.now();
         go_on(now, now - last);
@@ -384,7 +375,7 @@ void Run::stepped() {
     const Instant frame_period = std::chrono::duration_cast<Instant>(Seconds(1.0 / options_.frames_per_s));
     Instant fluid_due = period;
     const Instant stop = options_.seconds ? end() : Instant::max() - period;
-    for (Instant t{0}; !g_stop && t < stop; t += kTick) {
+    for (Instant t{0}; !asked_to_stop() && t < stop; t += kTick) {
         clock.sleep_until(t);
         if (loop_) loop_->tick(clock.now());
         if (t + kTick < fluid_due) continue;

@@ -1,0 +1,24 @@
+#include "firmware/verbs/stop.h"
+
+#include <atomic>
+#include <csignal>
+
+namespace eddy {
+namespace {
+
+std::atomic<bool> g_stop{false};
+
+}  // namespace
+
+void stop_on_signals() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { g_stop = true; };
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+bool asked_to_stop() {
+    return g_stop;
+}
+
+}  // namespace eddy
