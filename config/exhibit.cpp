@@ -20,7 +20,7 @@ void describe(Visitor& v, FalconConfig& f) {
     v.value("serial", f.serial, "serial string of the one to use; empty: the first that is found");
     v.value("motor_units_per_nm", f.motor_units_per_nm,
             "motor value for a newton metre at the arm: what eddy falcon calibrate finds",
-            between(1000, 100000));
+            between(kLeastMotorUnitsPerNm, kMostMotorUnitsPerNm));
     v.value("keep_homing_bit", f.keep_homing_bit,
             "go on asking for the homed bits, so that lost homing is noticed");
     v.value("event_character", f.event_character,

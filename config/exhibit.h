@@ -39,6 +39,9 @@ constexpr std::span<const Word<OverlayChoice>> words_of(OverlayChoice) {
     return kOverlayChoices;
 }
 
+/// A Falcon's motor value for a newton metre at the arm is between these: a tenth of what its public sources say, and ten times it.
+inline constexpr double kLeastMotorUnitsPerNm = 1000.0, kMostMotorUnitsPerNm = 100000.0;
+
 /// The Novint Falcon of this machine, and what its public sources leave open.
 struct FalconConfig {
     std::string firmware{};  ///< path of the image that a cold device is loaded with

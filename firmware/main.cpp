@@ -408,6 +408,13 @@ struct CommandLine {
     }
 
     int act() {
+    int act_on_falcon() {
+        if (!calibrate->parsed()) return diagnose_falcon(falcon);
+        if (app.get_subcommand("falcon")->get_option("--seconds")->count() > 0)
+            throw InputError("--seconds does not go with calibrate, which ends when it has measured");
+        return calibrate_falcon(falcon);
+    }
+
         if (app.got_subcommand("run")) return eddy::run(run);
         if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
         if (app.got_subcommand("bench")) {
@@ -417,8 +424,7 @@ struct CommandLine {
         if (app.got_subcommand("accuracy")) return act_on_accuracy();
         if (app.got_subcommand("stability")) return act_on_stability();
         if (app.got_subcommand("tune")) return eddy::tune(tune);
-        if (app.got_subcommand("falcon"))
-            return calibrate->parsed() ? calibrate_falcon(falcon) : diagnose_falcon(falcon);
+        if (app.got_subcommand("falcon")) return act_on_falcon();
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);
     }

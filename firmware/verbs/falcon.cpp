@@ -117,7 +117,8 @@ int calibrate_falcon(const FalconOptions& options) {
     stop_on_signals();
     const FalconConfig config = config_for(options);
     const auto device = make_real_falcon(config);
-    Calibration calibration(options.weight_g * 1e-3, config.motor_units_per_nm);
+    Calibration calibration(options.weight_g * 1e-3, config.motor_units_per_nm, kLeastMotorUnitsPerNm,
+                            kMostMotorUnitsPerNm);
     Calibration::Stage stage = Calibration::Stage::Done;
     drive(*device, [&](Instant now) {
         const auto reading = device->read();

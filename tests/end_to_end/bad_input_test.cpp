@@ -152,7 +152,12 @@ TEST_F(BadInput, ThatThisVersionCannotDoIsSaidSo) {
     expect_refused({"run", "--display", "kms", "--record", out}, {"--display kms"});
     expect_refused({"run", "--haptics", "falcon", "--clock", "stepped", "--seconds", "1", "--record", out},
                    {"--haptics falcon", "--clock stepped"});
+}
+
+TEST_F(BadInput, AboutTheFalconIsNamed) {
     expect_refused({"falcon", "--firmware", scene}, {"falcon.firmware", scene, "AA 08"});
+    expect_refused({"falcon", "--firmware", missing + "/image.bin"}, {"falcon.firmware", missing});
+    expect_refused({"falcon", "--seconds", "3", "calibrate"}, {"--seconds", "calibrate"});
 }
 
 TEST_F(BadInput, ToCheckConfigIsToldFromGoodInput) {

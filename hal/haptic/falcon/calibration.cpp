@@ -27,13 +27,12 @@ constexpr Seconds kMeasureTime = 2 * kHalf;
 constexpr Seconds kPatience{180.0};  // for the weight
 constexpr double kFarthest = 0.035;  // [m] from where it should be: it ran away
 constexpr Instant kSilence = 20ms;
-constexpr double kLeastRatio = 0.1, kMostRatio = 10.0;  // of the scale found to the scale used
 constexpr double kMostSpread = 0.05;
 
 }  // namespace
 
-Calibration::Calibration(double weight_kg, double motor_units_per_nm)
-    : weight_n_(weight_kg * kGravity), used_(motor_units_per_nm) {}
+Calibration::Calibration(double weight_kg, double motor_units_per_nm, double least, double most)
+    : weight_n_(weight_kg * kGravity), used_(motor_units_per_nm), least_(least), most_(most) {}
 
 void Calibration::weight_hangs() {
     if (stage_ == Stage::HangOn) weight_hangs_ = true;
@@ -129,7 +128,7 @@ void Calibration::finish() {
     spread_ = std::abs(first - second) / weight_n_;
     // The motors give  added * used / found  newtons, and that is the weight.
     found_ = used_ * added / weight_n_;
-    if (!(found_ > kLeastRatio * used_ && found_ < kMostRatio * used_))
+    if (!(found_ >= least_ && found_ <= most_))
         fail("the motors did not feel the weight: was it hung on, and is the 30 V supply plugged in?");
     else if (spread_ > kMostSpread)
         fail("the handle did not come to rest: hang the weight so that it does not swing, and touch nothing");

@@ -21,8 +21,8 @@ class Calibration {
         Failed,
     };
 
-    /// `motor_units_per_nm`: what the driver is set to meanwhile.
-    Calibration(double weight_kg, double motor_units_per_nm);
+    /// `motor_units_per_nm`: what the driver is set to meanwhile; `least`, `most`: between which it is believed.
+    Calibration(double weight_kg, double motor_units_per_nm, double least, double most);
 
     /// One tick: the force to command [N, Device], zero when it has ended. `reading`: the newest one; the handle must
     /// be Ready.
@@ -47,7 +47,7 @@ class Calibration {
     void measure(Seconds in_stage, double force_y_n);
 
     const double weight_n_;
-    const double used_;
+    const double used_, least_, most_;  // motor units for a newton metre
     Stage stage_ = Stage::Empty;
     bool started_ = false;
     bool weight_hangs_ = false;

@@ -15,6 +15,10 @@ namespace eddy::falcon {
 /// from then on every position would be old without anybody noticing; so would one that came twice. After either, the
 /// line must once be quiet for longer than a reply takes, with nothing unanswered, and forces wait until replies are
 /// on time again.
+///
+/// Of several replies that arrive by one poll the newest counts. Where the bytes of two travel one by one, so that the first is
+/// complete a poll before the second, the first counts for a tick: what only the second says, lost homing too, is seen one
+/// command late.
 class Exchange {
   public:
     /// A reply takes about 1 ms; libnifalcon's users wait 5 to 20.
