@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "config/diagnostic.h"
+#include "firmware/built_from.h"
 #include "firmware/verbs/verbs.h"
 
 // The command line. Exit status: 0 done, 1 failed, 2 wrong usage or bad input.
@@ -65,7 +66,7 @@ struct CommandLine {
     bool print_origin = false, print_keys = false;
 
     CommandLine() {
-        app.set_version_flag("--version", std::string("eddy ") + EDDY_VERSION);
+        app.set_version_flag("--version", fmt::format("eddy {} ({})", EDDY_VERSION, kBuiltFrom));
         app.require_subcommand(1);
         app.failure_message([](const CLI::App*, const CLI::Error& e) {
             return fmt::format("eddy: {}; eddy --help and eddy VERB --help say what can be written\n",
@@ -407,7 +408,6 @@ struct CommandLine {
         return stability.endless ? run_endlessly(stability) : test_stability(stability);
     }
 
-    int act() {
     int act_on_falcon() {
         if (!calibrate->parsed()) return diagnose_falcon(falcon);
         if (app.get_subcommand("falcon")->get_option("--seconds")->count() > 0)
@@ -415,6 +415,7 @@ struct CommandLine {
         return calibrate_falcon(falcon);
     }
 
+    int act() {
         if (app.got_subcommand("run")) return eddy::run(run);
         if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
         if (app.got_subcommand("bench")) {

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "firmware/built_from.h"
 #include "firmware/input_error.h"
 #include "firmware/machine.h"
 
@@ -168,7 +169,7 @@ Result result_of(const Cell& cell, const Outcome& outcome) {
             grid_name(cell.trial.cells),
             std::string(to_word(cell.trial.effort)),
             outcome,
-            date_and_time() + ", " EDDY_VERSION};
+            date_and_time() + ", " + std::string(kBuiltFrom)};
 }
 
 const Result* find(std::span<const Result> results, const Cell& cell) {

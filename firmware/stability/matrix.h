@@ -39,7 +39,7 @@ struct Result {
     std::string grid = {};
     std::string effort = {};
     Outcome outcome = {};
-    std::string tried = {};  ///< when, and by what version: "2026-11-22 16:53, 0.1.0"
+    std::string tried = {};  ///< when, and by what: "2026-11-22 16:53, v0.1.0-3-g1a2b3c4" (built_from.h)
     bool is_of(const Cell& cell) const;
 };
 /// Tried now, by this program.
@@ -52,7 +52,7 @@ const Result* find(std::span<const Result> results, const Cell& cell);
 std::vector<std::size_t> telling_first(std::span<const Cell> cells, std::span<const Result> known);
 
 /// case, name, grid, effort, steps, pass, reason, kinetic energy ratio, largest force, recovery time, non-finite texels, wall
-/// time, remark, when and by what version: a line for each result, after a line of names.
+/// time, remark, when and by what: a line for each result, after a line of names.
 std::string csv_of(std::span<const Result> results);
 /// What csv_of() wrote; `file` is what complaints call it. Throws InputError.
 std::vector<Result> results_from_csv(const std::string& text, const std::filesystem::path& file);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "config/scene.h"
+#include "firmware/built_from.h"
 #include "firmware/destination.h"
 #include "firmware/graphics.h"
 #include "firmware/machine.h"
@@ -35,7 +36,7 @@ int run_endlessly(const StabilityOptions& options) {
             fmt::print("drifts: {}\n", drift);
             flat = false;
         }
-        runs.push_back({fmt::format("{}, {} ({}, {})", what, who, date_and_time(), EDDY_VERSION), samples});
+        runs.push_back({fmt::format("{}, {} ({}, {})", what, who, date_and_time(), kBuiltFrom), samples});
         if (!options.out.empty())
             replace_text_file(std::filesystem::path(options.out) / kLongRunsCsv, csv_of(runs));
     }

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/end_to_end/program.h"
@@ -53,11 +54,11 @@ TEST(Help, OfAChoiceListsItsWords) {
         EXPECT_NE(help.find(words), std::string::npos) << words << " in:\n" << help;
 }
 
-TEST(Version, IsOneLine) {
+TEST(Version, IsOneLineWithWhatItWasBuiltFrom) {
     const Ended version = eddy({"--version"});
     EXPECT_EQ(version.status, 0);
     EXPECT_EQ(version.err, "");
-    EXPECT_EQ(version.out, "eddy " EDDY_VERSION "\n");
+    EXPECT_THAT(version.out, testing::MatchesRegex("eddy " EDDY_VERSION " \\([^ ()]+\\)\n"));
 }
 
 }  // namespace
