@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "allocation_counter.h"
 #include "scripted_device.h"
+#include "tests/allocations.h"
 #include "tests/mocks/mock_haptic_device.h"
 
 namespace eddy {

@@ -13,7 +13,7 @@ namespace eddy {
 
 /// The driver above the real libusb above an emulated Falcon on an emulated bus, all on virtual time: what Rig is
 /// without USB between. The device outlives the driver.
-struct UsbRig {
+struct UsbRig : DriverRig {
     explicit UsbRig(emulated::BoardSettings board = {}, FalconSettings driver_settings = {},
                     std::unique_ptr<emulated::HandMotion> motion = still(),
                     emulated::PlantSettings plant = {.hand = emulated::Hand::OnPath})
@@ -29,7 +29,7 @@ struct UsbRig {
         bus().clear();
         now = bus().now();
     }
-    ~UsbRig() {
+    ~UsbRig() override {
         driver.reset();
         bus().clear();
     }
@@ -47,39 +47,16 @@ struct UsbRig {
         driver = std::make_unique<Falcon>(std::make_unique<falcon::UsbLink>(serial), settings);
     }
 
-    void tick(const glm::dvec3& force_n = glm::dvec3(0.0)) {
+    void advance() override {
         now = std::max(now, bus().now()) + std::chrono::milliseconds(1);  // waiting in libusb takes time, too
-        {
-            const usb::InKernel kernel;
-            bus().advance(now);
-        }
-        driver->poll(now);
-        if (const auto reading = driver->read()) {
-            last = *reading;
-            ++readings;
-        }
-        driver->command(force_n);
-    }
-    void run(int ms, const glm::dvec3& force_n = glm::dvec3(0.0)) {
-        for (int i = 0; i < ms; ++i) tick(force_n);
-    }
-    /// Milliseconds until the driver is in this state; -1 if it does not get there in time.
-    int until(HapticState state, int at_most_ms, const glm::dvec3& force_n = glm::dvec3(0.0)) {
-        for (int ms = 0; ms <= at_most_ms; ++ms) {
-            if (driver->state() == state) return ms;
-            tick(force_n);
-        }
-        return -1;
+        const usb::InKernel kernel;
+        bus().advance(now);
     }
     emulated::EmulatedFalcon& device() { return port->device.falcon(); }
     emulated::EmulatedBoard& board() { return device().board(); }
 
     FalconSettings settings;
-    Instant now{0};
     usb::Port* port = nullptr;
-    std::unique_ptr<Falcon> driver;
-    HandleReading last;
-    int readings = 0;
 };
 
 }  // namespace eddy

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "hal/haptic/emulated/make_emulated_falcon.h"
-#include "tests/hal/haptic/allocations.h"
+#include "tests/allocations.h"
 #include "tests/hal/haptic/falcon/rig.h"
 
 namespace eddy {

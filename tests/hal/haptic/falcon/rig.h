@@ -23,18 +23,14 @@ inline std::unique_ptr<Path> still(const glm::dvec3& p = glm::dvec3(0.0)) {
     return std::make_unique<Path>([p](double) { return p; });
 }
 
-/// The driver above the emulated Falcon, polled and commanded 1000 times a second of virtual time.
-struct Rig {
-    explicit Rig(emulated::BoardSettings board = {}, FalconSettings settings = {},
-                 std::unique_ptr<emulated::HandMotion> motion = still(),
-                 emulated::PlantSettings plant = {.hand = emulated::Hand::OnPath}) {
-        auto emulated = std::make_unique<emulated::EmulatedFalcon>(std::move(motion), plant, board);
-        device = emulated.get();
-        driver = std::make_unique<Falcon>(std::move(emulated), std::move(settings));
-    }
+/// A driver, polled and commanded 1000 times a second of virtual time.
+struct DriverRig {
+    virtual ~DriverRig() = default;
+    /// The next millisecond begins, for the device too.
+    virtual void advance() = 0;
 
     void tick(const glm::dvec3& force_n = glm::dvec3(0.0)) {
-        now += std::chrono::milliseconds(1);
+        advance();
         driver->poll(now);
         if (const auto reading = driver->read()) {
             last = *reading;
@@ -53,13 +49,27 @@ struct Rig {
         }
         return -1;
     }
-    emulated::EmulatedBoard& board() { return device->board(); }
 
     Instant now{0};
-    emulated::EmulatedFalcon* device = nullptr;
     std::unique_ptr<Falcon> driver;
     HandleReading last;
     int readings = 0;
+};
+
+/// The driver above the emulated Falcon.
+struct Rig : DriverRig {
+    explicit Rig(emulated::BoardSettings board = {}, FalconSettings settings = {},
+                 std::unique_ptr<emulated::HandMotion> motion = still(),
+                 emulated::PlantSettings plant = {.hand = emulated::Hand::OnPath}) {
+        auto emulated = std::make_unique<emulated::EmulatedFalcon>(std::move(motion), plant, board);
+        device = emulated.get();
+        driver = std::make_unique<Falcon>(std::move(emulated), std::move(settings));
+    }
+
+    void advance() override { now += std::chrono::milliseconds(1); }
+    emulated::EmulatedBoard& board() { return device->board(); }
+
+    emulated::EmulatedFalcon* device = nullptr;
 };
 
 inline emulated::BoardSettings cold() {
