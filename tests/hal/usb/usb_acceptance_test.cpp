@@ -104,7 +104,7 @@ TEST(FalconAcceptance, SendsNoTorqueOutOfRangeInAMillionFuzzedTicks) {
                 case 2:
                     // Not together with bytes that travel alone: the second reply then comes so late that it passes for
                     // the answer to the next command, and the driver hears of lost homing one command later.
-                    faults.double_replies = rig.device->splits ? 0 : some();
+                    faults.double_replies = rig.device().splits ? 0 : some();
                     break;
                 case 3:
                     faults.garbage = some();
@@ -116,12 +116,12 @@ TEST(FalconAcceptance, SendsNoTorqueOutOfRangeInAMillionFuzzedTicks) {
                     faults.encoder_error = {some() * 999, -some() * 999, some() * 5000};
                     break;
                 case 6:
-                    rig.device->splits = some() == 0 && faults.double_replies == 0;
+                    rig.device().splits = some() == 0 && faults.double_replies == 0;
                     break;
                 default:
-                    rig.device->unplug();
+                    rig.device().unplug();
                     rig.run(static_cast<int>(random() % 20), {9.0, 9.0, 9.0});
-                    rig.device->plug_in(some() != 0);
+                    rig.device().plug_in(some() != 0);
             }
         }
         rig.tick({any(), any(), any()});

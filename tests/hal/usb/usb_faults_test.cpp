@@ -7,7 +7,8 @@
 #include "tests/hal/usb/usb_rig.h"
 
 // What the driver makes of a device that misbehaves, through the real libusb: its asynchronous transfers, short
-// packets, stalls, cancellation, and devices that vanish. falcon_faults_test.cpp asks more of the driver itself.
+// packets, stalls, cancellation, and devices that vanish; DeviceFaults without USB between as well. falcon_faults_test.cpp asks
+// more of the driver itself.
 
 namespace eddy {
 namespace {
@@ -19,12 +20,17 @@ using emulated::BoardState;
 const glm::dvec3 kPush(2.0, 0.0, 0.0);
 
 /// Where the hand is, to the resolution of the encoders.
-void expect_true_positions(const UsbRig& rig) {
+void expect_true_positions(const DriverRig& rig) {
     EXPECT_LT(glm::length(rig.last.position_m), 60e-6) << "a position was made up";
 }
 
-TEST(UsbFaults, LostRepliesCostNothingButTime) {
-    UsbRig rig;
+template <class AnyRig>
+struct DeviceFaults : testing::Test {};
+using Rigs = testing::Types<Rig, UsbRig>;
+TYPED_TEST_SUITE(DeviceFaults, Rigs);
+
+TYPED_TEST(DeviceFaults, LostRepliesCostNothingButTime) {
+    TypeParam rig;
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     rig.board().faults.lost_replies = 3;
     rig.run(200, kPush);
@@ -34,8 +40,8 @@ TEST(UsbFaults, LostRepliesCostNothingButTime) {
     expect_true_positions(rig);
 }
 
-TEST(UsbFaults, RepliesOfFourteenBytesAreNotReplies) {
-    UsbRig rig;
+TYPED_TEST(DeviceFaults, RepliesOfFourteenBytesAreNotReplies) {
+    TypeParam rig;
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     rig.board().faults.short_replies = 3;
     rig.run(200, kPush);
@@ -44,8 +50,8 @@ TEST(UsbFaults, RepliesOfFourteenBytesAreNotReplies) {
     expect_true_positions(rig);
 }
 
-TEST(UsbFaults, NonsenseBetweenRepliesIsSkipped) {
-    UsbRig rig;
+TYPED_TEST(DeviceFaults, NonsenseBetweenRepliesIsSkipped) {
+    TypeParam rig;
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     rig.board().faults.garbage = 50;
     rig.run(200, kPush);
@@ -54,14 +60,60 @@ TEST(UsbFaults, NonsenseBetweenRepliesIsSkipped) {
     expect_true_positions(rig);
 }
 
-TEST(UsbFaults, RepliesSentTwiceDoNoHarm) {
-    UsbRig rig;
+TYPED_TEST(DeviceFaults, RepliesSentTwiceDoNoHarm) {
+    TypeParam rig;
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     rig.board().faults.double_replies = 20;
     rig.run(800, kPush);
     EXPECT_EQ(rig.board().faults.double_replies, 0);
     EXPECT_EQ(rig.driver->state(), HapticState::Ready);
     expect_true_positions(rig);
+}
+
+TYPED_TEST(DeviceFaults, PacketsWithoutAnythingInThemAreSilence) {
+    TypeParam rig;
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.device().line_dead = true;
+    rig.run(2000);
+    EXPECT_EQ(rig.driver->counters().lost, 1U);
+    EXPECT_NE(rig.driver->state(), HapticState::Ready);
+    rig.device().line_dead = false;
+    EXPECT_GE(rig.until(HapticState::Ready, 1000), 0);
+}
+
+TYPED_TEST(DeviceFaults, AJumpOfTheEncodersIsNotFollowed) {
+    TypeParam rig;
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.run(10);
+    rig.board().faults.encoder_error = {900, 0, 0};
+    rig.run(1);
+    rig.board().faults.encoder_error = {};
+    for (int i = 0; i < 20; ++i) {
+        rig.tick();
+        expect_true_positions(rig);
+    }
+    EXPECT_EQ(rig.driver->counters().implausible, 1U);
+}
+
+TYPED_TEST(DeviceFaults, LostHomingEndsTheForce) {
+    TypeParam rig;
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.run(10, kPush);
+    rig.board().faults.homing_lost = true;
+    rig.run(3, kPush);
+    EXPECT_EQ(rig.driver->state(), HapticState::Homing);
+    EXPECT_EQ(rig.board().last_command().motors, Axes{});
+    EXPECT_EQ(rig.driver->counters().rehomed, 1U);
+}
+
+TYPED_TEST(DeviceFaults, ALossOfPowerWhileRunningIsLoadedAgain) {
+    TypeParam rig({}, with_firmware(200), std::make_unique<Path>([](double t) {
+                      return glm::dvec3(0.0, 0.0, 0.045 * std::sin(M_PI * t));
+                  }));
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.board().lose_power();
+    ASSERT_GE(rig.until(HapticState::Loading, 4000), 0);
+    EXPECT_GE(rig.until(HapticState::Ready, 8000), 0);
 }
 
 // Without the event character both wait for the latency timer and travel together.
@@ -140,42 +192,6 @@ TEST(UsbFaults, NobodyIsPushedWhileRepliesTakeFiftyMilliseconds) {
     rig.board().faults.slow_reply = 0ms;
     rig.run(500, kPush);
     EXPECT_NE(rig.board().last_command().motors, Axes{}) << "and it recovers";
-}
-
-TEST(UsbFaults, PacketsWithoutAnythingInThemAreSilence) {
-    UsbRig rig;
-    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
-    rig.device().line_dead = true;
-    rig.run(2000);
-    EXPECT_EQ(rig.driver->counters().lost, 1U);
-    EXPECT_NE(rig.driver->state(), HapticState::Ready);
-    rig.device().line_dead = false;
-    EXPECT_GE(rig.until(HapticState::Ready, 1000), 0);
-}
-
-TEST(UsbFaults, AJumpOfTheEncodersIsNotFollowed) {
-    UsbRig rig;
-    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
-    rig.run(10);
-    rig.board().faults.encoder_error = {900, 0, 0};
-    rig.run(1);
-    rig.board().faults.encoder_error = {};
-    for (int i = 0; i < 20; ++i) {
-        rig.tick();
-        expect_true_positions(rig);
-    }
-    EXPECT_EQ(rig.driver->counters().implausible, 1U);
-}
-
-TEST(UsbFaults, LostHomingEndsTheForce) {
-    UsbRig rig;
-    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
-    rig.run(10, kPush);
-    rig.board().faults.homing_lost = true;
-    rig.run(3, kPush);
-    EXPECT_EQ(rig.driver->state(), HapticState::Homing);
-    EXPECT_EQ(rig.board().last_command().motors, Axes{});
-    EXPECT_EQ(rig.driver->counters().rehomed, 1U);
 }
 
 TEST(UsbFaults, TwoHomedAxesAreNotEnough) {
@@ -295,16 +311,6 @@ TEST(UsbFaults, ALineAtAWrongRateIsReportedAndTriedAgain) {
     EXPECT_EQ(rig.driver->counters().given_up, 1U);
     rig.device().rate_error = 0.0;
     EXPECT_GE(rig.until(HapticState::Homing, 10000), 0);
-}
-
-TEST(UsbFaults, ALossOfPowerWhileRunningIsLoadedAgain) {
-    UsbRig rig({}, with_firmware(200), std::make_unique<Path>([](double t) {
-                   return glm::dvec3(0.0, 0.0, 0.045 * std::sin(M_PI * t));
-               }));
-    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
-    rig.board().lose_power();
-    ASSERT_GE(rig.until(HapticState::Loading, 4000), 0);
-    EXPECT_GE(rig.until(HapticState::Ready, 8000), 0);
 }
 
 }  // namespace

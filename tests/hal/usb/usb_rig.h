@@ -52,8 +52,7 @@ struct UsbRig : DriverRig {
         const usb::InKernel kernel;
         bus().advance(now);
     }
-    emulated::EmulatedFalcon& device() { return port->device.falcon(); }
-    emulated::EmulatedBoard& board() { return device().board(); }
+    emulated::EmulatedFalcon& device() override { return port->device.falcon(); }
 
     FalconSettings settings;
     usb::Port* port = nullptr;

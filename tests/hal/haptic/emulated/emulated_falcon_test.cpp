@@ -161,7 +161,7 @@ TEST(EmulatedBoard, DropsItsTorqueWhenTheHostFallsSilent) {
     rig.run(200, {3.0, 0.0, 0.0});
     EXPECT_GT(rig.board().plant().position_m().x, 0.005);
     // The device lives on while the driver is not called at all.
-    rig.device->poll(rig.now + 2s);
+    rig.device().poll(rig.now + 2s);
     EXPECT_LT(rig.board().plant().position_m().x, 0.001) << "the arm has pulled the handle back";
     EXPECT_EQ(rig.board().last_command(), Command{}) << "lamps off, too";
 }

@@ -48,7 +48,7 @@ TEST(FalconBoot, AsksTheChipForTheKnownThingsInTheKnownOrder) {
                                                {0x40, 0, 2, 0},
                                                {0x40, 6, 0x013E, 0}};
     std::vector<ControlRequest> asked;
-    const auto records = rig.device->requests();
+    const auto records = rig.device().requests();
     for (std::size_t i = 0; i < records.size(); ++i) {
         // The unanswered frames of the first attempt are each followed by both purges: not part of the order.
         const bool probing = i >= 7 && i + expected.size() - 7 < records.size();
@@ -98,7 +98,7 @@ TEST(FalconBoot, StartsOverAfterAWrongEcho) {
     EXPECT_GE(rig.until(HapticState::Homing, 5000), 0);
     EXPECT_EQ(rig.board().faults.wrong_echo_at, -1) << "the wrong echo was met";
     const auto calls =
-        std::ranges::count(rig.device->requests(), baud_9600(), &emulated::EmulatedFalcon::Record::request);
+        std::ranges::count(rig.device().requests(), baud_9600(), &emulated::EmulatedFalcon::Record::request);
     EXPECT_EQ(calls, 2) << "and the PIC was called again";
 }
 
@@ -127,7 +127,7 @@ TEST(FalconBoot, IsSkippedWhenTheFirmwareRuns) {
     const int ms = rig.until(HapticState::Homing, 1000);
     ASSERT_GE(ms, 0);
     EXPECT_LT(ms, 300);
-    for (const auto& record : rig.device->requests())
+    for (const auto& record : rig.device().requests())
         EXPECT_NE(record.request, baud_9600()) << "the boot program was called";
 }
 
@@ -135,10 +135,10 @@ TEST(FalconBoot, SurvivesAnUnpluggedCableInTheMiddleOfAnUpload) {
     Rig rig(cold(), with_firmware());
     ASSERT_GE(rig.until(HapticState::Loading, 3000), 0);
     rig.run(100);
-    rig.device->unplug();
+    rig.device().unplug();
     rig.run(2);
     EXPECT_EQ(rig.driver->state(), HapticState::Absent);
-    rig.device->plug_in(false);
+    rig.device().plug_in(false);
     EXPECT_GE(rig.until(HapticState::Homing, 3000), 0);
 }
 

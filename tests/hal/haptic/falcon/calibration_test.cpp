@@ -112,7 +112,7 @@ TEST(FalconCalibration, LetsGoOfADeviceThatStopsAnswering) {
     Calibration calibration = with_100_g();
     ASSERT_GE(bench.rig.until(HapticState::Ready, 1000), 0);
     for (int ms = 0; ms < 2000; ++ms) {
-        if (ms == 1000) bench.rig.device->line_dead = true;
+        if (ms == 1000) bench.rig.device().line_dead = true;
         bench.rig.now += std::chrono::milliseconds(1);
         bench.rig.driver->poll(bench.rig.now);
         bench.rig.driver->command(calibration.tick(bench.rig.now, bench.rig.driver->read()));

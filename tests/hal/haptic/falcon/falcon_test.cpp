@@ -231,9 +231,9 @@ TEST(Falcon, AllocatesNothingWhileItRuns) {
     Rig rig(cold(), with_firmware(200), homing_push(2.0));
     const std::size_t before = allocations();
     rig.run(3000, {1.0, 2.0, 3.0});
-    rig.device->unplug();
+    rig.device().unplug();
     rig.run(50);
-    rig.device->plug_in(true);
+    rig.device().plug_in(true);
     rig.run(3000, {1.0, 2.0, 3.0});
     EXPECT_EQ(allocations(), before);
     EXPECT_EQ(rig.driver->state(), HapticState::Ready);

@@ -28,6 +28,8 @@ struct DriverRig {
     virtual ~DriverRig() = default;
     /// The next millisecond begins, for the device too.
     virtual void advance() = 0;
+    virtual emulated::EmulatedFalcon& device() = 0;
+    emulated::EmulatedBoard& board() { return device().board(); }
 
     void tick(const glm::dvec3& force_n = glm::dvec3(0.0)) {
         advance();
@@ -62,14 +64,15 @@ struct Rig : DriverRig {
                  std::unique_ptr<emulated::HandMotion> motion = still(),
                  emulated::PlantSettings plant = {.hand = emulated::Hand::OnPath}) {
         auto emulated = std::make_unique<emulated::EmulatedFalcon>(std::move(motion), plant, board);
-        device = emulated.get();
+        device_ = emulated.get();
         driver = std::make_unique<Falcon>(std::move(emulated), std::move(settings));
     }
 
     void advance() override { now += std::chrono::milliseconds(1); }
-    emulated::EmulatedBoard& board() { return device->board(); }
+    emulated::EmulatedFalcon& device() override { return *device_; }
 
-    emulated::EmulatedFalcon* device = nullptr;
+  private:
+    emulated::EmulatedFalcon* device_ = nullptr;
 };
 
 inline emulated::BoardSettings cold() {
