@@ -1,6 +1,23 @@
 #include "firmware/rest_watch.h"
 
+#include <algorithm>
+
 namespace eddy {
+
+bool moves_by_itself(const Scene& scene) {
+    const auto is_driven = [](const Scene::Body& body) { return body.motion == BodyMotion::Prescribed; };
+    const auto blows = [](const Scene::Source& source) {
+        return source.velocity_m_s || source.start_s > 0.0;
+    };
+    const auto through = [](const Scene::Wall* wall) {
+        return wall->kind == WallKind::Inflow || wall->velocity_m_s;
+    };
+    const auto walls = scene.tank.walls.all();
+    return scene.imposed || scene.forcing ||
+           std::any_of(scene.bodies.begin(), scene.bodies.end(), is_driven) ||
+           std::any_of(scene.sources.begin(), scene.sources.end(), blows) ||
+           std::any_of(walls.begin(), walls.end(), through);
+}
 
 void RestWatch::see(Instant now, const std::optional<glm::dvec3>& hand_m, std::uint8_t buttons) {
     now_ = now;

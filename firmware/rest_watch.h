@@ -3,9 +3,13 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "config/scene.h"
 #include "hal/clock.h"
 
 namespace eddy {
+
+/// Whether something will move though nothing does now, or moves that the fluid as a whole hardly shows: such a show never rests.
+bool moves_by_itself(const Scene& scene);
 
 /// Tells when nobody is here, and when the show may rest: for some time nobody has moved the hand and, for resting, the fluid
 /// has been still. A hand that moves, comes or goes ends both at once.

@@ -21,6 +21,7 @@
 #include "firmware/stopwatch.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/run_device.h"
+#include "firmware/verbs/run_options.h"
 #include "firmware/verbs/stop.h"
 #include "firmware/views.h"
 
@@ -33,7 +34,6 @@ using namespace std::chrono_literals;
 /// instead of leaping.
 constexpr Seconds kLongestStep{0.1};
 constexpr Seconds kSlowWarmUp{2.0};  // worth a line
-constexpr Seconds kShortestStep{0.001};
 /// Of each stage's times; the page and the summary take their median.
 constexpr std::size_t kSamples = 200;
 /// While nothing moves the fluid is computed this often, to see whether that is still so.
@@ -42,48 +42,6 @@ constexpr Instant kRestPeriod = 500ms;
 constexpr long kMeasureEvery = 20;
 /// Recording pictures may take this share of the time; the fluid has the rest.
 constexpr double kRenderShare = 0.4;
-
-void require_no_screen(DisplayChoice choice) {
-    if (choice == DisplayChoice::Kms)
-        throw InputError("--display kms: this version cannot drive a screen yet; use headless, or auto");
-}
-
-/// Whether something will move though nothing does now, or moves that the fluid as a whole hardly shows: such a show never rests.
-bool moves_by_itself(const Scene& scene) {
-    const auto is_driven = [](const Scene::Body& body) { return body.motion == BodyMotion::Prescribed; };
-    const auto blows = [](const Scene::Source& source) {
-        return source.velocity_m_s || source.start_s > 0.0;
-    };
-    const auto through = [](const Scene::Wall* wall) {
-        return wall->kind == WallKind::Inflow || wall->velocity_m_s;
-    };
-    const auto walls = scene.tank.walls.all();
-    return scene.imposed || scene.forcing ||
-           std::any_of(scene.bodies.begin(), scene.bodies.end(), is_driven) ||
-           std::any_of(scene.sources.begin(), scene.sources.end(), blows) ||
-           std::any_of(walls.begin(), walls.end(), through);
-}
-
-const std::vector<SolverPreset>& presets_of(const RunOptions& options, const Exhibit& exhibit) {
-    return options.presets.empty() ? exhibit.presets : options.presets;
-}
-
-const std::string& scene_name(const RunOptions& options, const Exhibit& exhibit) {
-    return options.scene.empty() ? exhibit.scene : options.scene;
-}
-
-/// What the quality of the fluid hangs on. A run on the stepped clock is the same on every machine: it keeps the scene's own.
-QualityControl::Setup quality_setup(const RunOptions& options, const Exhibit& exhibit, const Scene& scene) {
-    QualityControl::Setup setup{
-        presets_of(options, exhibit), Seconds(options.preset_s.value_or(exhibit.preset_s)), {}};
-    const std::filesystem::path folder =
-        options.state_dir.empty() ? exhibit.state_dir : std::filesystem::path(options.state_dir);
-    // A flow that was written for one grid starts on that.
-    const bool may_tune =
-        options.clock == ClockChoice::Real && scene.initial.velocity_npy.empty() && !scene.imposed;
-    if (may_tune && is_folder(folder)) setup.tuning = tuning_file(folder, scene_name(options, exhibit));
-    return setup;
-}
 
 /// Everything one run holds, wired together.
 class Run {
@@ -440,27 +398,7 @@ int run(const RunOptions& options) {
     stop_on_signals();
     const Exhibit exhibit = load_exhibit().exhibit;
     const Scene scene = load_scene(scene_name(options, exhibit), options.set).scene;
-    if (options.clock == ClockChoice::Stepped && !options.seconds)
-        throw InputError("--clock stepped: say how long with --seconds, or it would never end");
-    if (scene.solver.dt_s < kShortestStep.count())
-        throw InputError(fmt::format(
-            "solver.dt_s = {}: run keeps time in ticks of 1 ms; use at least 0.001 (simulate takes "
-            "any)",
-            scene.solver.dt_s));
-    if (presets_of(options, exhibit).size() == 1)
-        throw InputError("presets: one alone leaves nothing to choose; name more, or set solver.preset");
-    if (options.preset_s.value_or(0.0) > 0.0 && presets_of(options, exhibit).empty())
-        throw InputError(
-            fmt::format("--preset-s {}: there are no presets that could change; name them with --presets",
-                        *options.preset_s));
-    // Each preset must be able to do what the scene asks for.
-    for (const SolverPreset preset : presets_of(options, exhibit)) {
-        std::vector<std::string> set = options.set;
-        set.push_back(fmt::format("solver.preset=\"{}\"", to_word(preset)));
-        load_scene(scene_name(options, exhibit), set);
-    }
-    require_no_screen(options.display.value_or(exhibit.display));
-    BodySchedule{scene};  // reads the paths
+    require_possible(options, exhibit, scene);
     RunDevice device = make_device(options, exhibit);
     if (!options.record.empty()) prepare_folder("--record", options.record);
     if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);
