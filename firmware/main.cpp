@@ -1,48 +1,15 @@
-#include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
-
-#include <algorithm>
-#include <charconv>
+#include <fmt/format.h>
 
 #include "config/diagnostic.h"
 #include "firmware/built_from.h"
+#include "firmware/command_line.h"
+#include "firmware/stability_options.h"
 #include "firmware/verbs/verbs.h"
 
 // The command line. Exit status: 0 done, 1 failed, 2 wrong usage or bad input.
 
 namespace eddy {
 namespace {
-
-/// Takes one of these words for an enum; `words` as the configuration writes them.
-template <class E>
-void choose(CLI::Option& option, std::span<const Word<E>> words) {
-    std::string choice;
-    for (const Word<E>& word : words) choice += fmt::format("{}{}", choice.empty() ? "" : "|", word.word);
-    option.type_name(choice);
-    option.transform(CLI::Validator(
-        [words, choice](std::string& text) {
-            for (const Word<E>& word : words)
-                if (word.word == text) {
-                    text = std::to_string(static_cast<int>(word.value));
-                    return std::string();
-                }
-            return fmt::format("'{}' is not one of {}", text, choice);
-        },
-        ""));
-}
-
-/// low <= number <= high; a number that is none (nan) is refused too.
-CLI::Validator number_from(double low, double high) {
-    return CLI::Validator(
-        [low, high](std::string& text) {
-            double number = 0.0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-            if (error == std::errc{} && end == text.data() + text.size() && number >= low && number <= high)
-                return std::string();
-            return fmt::format("'{}' is not a number from {} to {}", text, low, high);
-        },
-        "");
-}
 
 constexpr double kShortestS = 1e-3, kLongestS = 1e9;  // of a run; 30 years, well inside 64 bits of ns
 
@@ -79,7 +46,7 @@ struct CommandLine {
         add_simulate();
         add_bench();
         add_accuracy();
-        add_stability();
+        add_stability(app, stability);
         add_tune();
         add_falcon();
         auto* check =
@@ -93,13 +60,6 @@ struct CommandLine {
         print->add_flag("--origin", print_origin, "say for each value where it was written");
         print->add_flag("--keys", print_keys,
                         "list every key a scene may have, with range, default and meaning");
-    }
-
-    void add_set(CLI::App& verb, std::vector<std::string>& set) {
-        verb.add_option("--set", set, "change a key of the scene: --set solver.dt_s=0.01; may be repeated")
-            ->type_name("KEY=VALUE")
-            ->allow_extra_args(false)
-            ->take_all();
     }
 
     void add_run() {
@@ -285,106 +245,6 @@ struct CommandLine {
             "  eddy accuracy --merge part1 part2 part3 --out sweep    tables and plots of all parts");
     }
 
-    void add_stability() {
-        auto* verb = app.add_subcommand(
-            "stability",
-            "Hard cases: what a hand, a file or a driver can do to the fluid, and whether it stands it");
-        verb->option_defaults()->take_last();
-        verb->add_flag("--list", stability.list, "list the cases: what each provokes, and what it wants");
-        auto* quick =
-            verb->add_flag("--quick", stability.quick, "60 steps of each on 8^3 cells (three minutes)");
-        auto* full = verb->add_flag(
-            "--full", stability.full,
-            "on four grids up to 64^3, the longest runs and every pair of cases as well (a day in software)");
-        quick->excludes(full);
-        verb->add_option("--case", stability.cases,
-                         "only these: names or numbers, as 4,piston; two at once: stall+cup")
-            ->delimiter(',')
-            ->take_all();
-        verb->add_option("--grid", stability.grids, "on these grids, as 8,25 or 33x47x29 [8,25]")
-            ->delimiter(',')
-            ->take_all();
-        auto* shard =
-            verb->add_option("--shard", stability.shard,
-                             "only part I of N: give each machine its own part and --out, then --merge")
-                ->type_name("I/N");
-        auto* resume =
-            verb->add_flag("--resume", stability.resume, "go on where the stability.csv in --out ends");
-        auto* merge = verb->add_option("--merge", stability.merge,
-                                       "put the parts of a matrix together: the folders they were written to")
-                          ->type_name("FOLDER...")
-                          ->take_all()
-                          ->expected(1, 100000);
-        auto* out =
-            verb->add_option("--out", stability.out, "folder for stability.csv, report.md, heat_map.png");
-        resume->needs(out);
-        merge->needs(out);
-        merge->excludes(shard)->excludes(resume);
-        verb->add_option(
-                "--fuzz", stability.fuzz,
-                "in place of the cases: so many scenes that chance makes, 200 steps each; those that "
-                "break the rule are made as small as they get and written to --out")
-            ->check(CLI::Range(1, 1000000));
-        verb->add_option(
-                "--hands", stability.hands,
-                "in place of the cases: so many hands that chance moves (leaps, nan, silence, bursts), "
-                "four seconds each at 1 kHz; whether any gets a force that it must not get")
-            ->check(CLI::Range(1, 1000000));
-        verb->add_option("--seed", stability.seed,
-                         "of the first random scene or hand; each has a seed of its own [1]");
-        verb->add_option(
-                "--endless", stability.endless,
-                "in place of the cases: a scene for so many steps, alone and with somebody who stirs; "
-                "whether memory, smoke or force drift; figures go to --out as well")
-            ->check(CLI::Range(1L, 1000000000L));
-        verb->add_option("--scene", stability.scene,
-                         "for --hands and --endless: shipped scene or file [stir; for hands on 8^3 cells]");
-        add_set(*verb, stability.set);
-        verb->footer(
-            "  eddy stability --quick                             what holds on this machine, in three "
-            "minutes\n"
-            "  eddy stability --case stall+cup --grid 25          two cases at once\n"
-            "  eddy stability --fuzz 1000 --seed 1 --out fuzz     random scenes\n"
-            "  eddy stability --hands 1 --seed 7                  one random hand again\n"
-            "  eddy stability --endless 100000 --set tank.cells=[16,16,16]\n"
-            "Exit status 1 if a cell is red, a scene or a hand breaks the rule or something drifts.");
-    }
-
-    /// What goes with what: else an option would be silently without effect.
-    void check_stability() const {
-        const CLI::App& verb = *app.get_subcommand("stability");
-        const auto given = [&](const std::string& option) { return verb.get_option(option)->count() > 0; };
-        struct Way {
-            const char* option;
-            std::vector<std::string> takes;
-        };
-        const std::vector<Way> ways{
-            {"--fuzz", {"--seed", "--out"}},
-            {"--hands", {"--seed", "--scene", "--set"}},
-            {"--endless", {"--scene", "--set", "--out"}},
-            {nullptr,
-             {"--list", "--quick", "--full", "--case", "--grid", "--shard", "--resume", "--merge", "--out"}}};
-        const Way& chosen = *std::find_if(ways.begin(), ways.end(),
-                                          [&](const Way& way) { return !way.option || given(way.option); });
-        for (const Way& way : ways) {
-            if (way.option && way.option != chosen.option && given(way.option))
-                throw InputError(fmt::format("{} and {}: one at a time", chosen.option, way.option));
-            for (const std::string& option : way.takes) {
-                const auto takes = [&](const Way& one) {
-                    return std::find(one.takes.begin(), one.takes.end(), option) != one.takes.end();
-                };
-                if (!given(option) || takes(chosen)) continue;
-                if (chosen.option)
-                    throw InputError(fmt::format("{} does not go with {}, which takes {}", option,
-                                                 chosen.option, fmt::join(chosen.takes, ", ")));
-                std::vector<std::string> takers;
-                for (const Way& one : ways)
-                    if (takes(one)) takers.emplace_back(one.option);
-                throw InputError(fmt::format("{} goes with {} only", option, fmt::join(takers, " or ")));
-            }
-        }
-    }
-
     /// CLI11 would call an unknown verb a missing one.
     void require_verb(int argc, char** argv) const {
         if (argc < 2 || argv[1][0] == '-') return;
@@ -402,7 +262,7 @@ struct CommandLine {
     }
 
     int act_on_stability() {
-        check_stability();
+        check_stability(*app.get_subcommand("stability"));
         if (stability.fuzz) return fuzz_scenes(stability);
         if (stability.hands) return fuzz_hands(stability);
         return stability.endless ? run_endlessly(stability) : test_stability(stability);
