@@ -18,7 +18,7 @@ class Confinement {
 
   private:
     Gpu* gpu_;
-    float strength_1_s_;
+    double strength_1_s_;
     Pass vorticity_, force_, confine_;
 };
 

@@ -63,6 +63,12 @@ TEST_F(VorticityConfinement, FeedsNoEddyFarBeyondWhatDroveIt) {
     EXPECT_GT(unlimited, 1.5 * limited);
 }
 
+TEST_F(VorticityConfinement, PushesNoHarderThanAStepCanTake) {
+    // Steps are 0.5 s: from a strength of 0.5 1/s on eps dt stays 0.25.
+    EXPECT_EQ(energy_after(gpu, 0.5, 5), energy_after(gpu, 300.0, 5));
+    EXPECT_NE(energy_after(gpu, 0.4, 5), energy_after(gpu, 0.5, 5));
+}
+
 TEST_F(VorticityConfinement, DoesNothingToAFluidThatDoesNotTurn) {
     FluidSetup s = unit_tank({16, 14, 12}, 3.0, Advection::SemiLagrangian, 6);
     s.confinement_1_s = 1.0;
