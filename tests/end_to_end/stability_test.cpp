@@ -117,9 +117,7 @@ const std::vector<Red> kKnownRed{
     {"inflow-20hz", "8^3", "least", "# of what flows in does not flow out"},
     // bodies that overlap
     {"cross-through", "8^3", "default", "the bodies feel # of the peak more or less than"},
-    {"cross-through", "8^3", "least", "the bodies feel # of the peak more or less than"},
-    // confinement of a flow that nothing drives
-    {"confinement-20", "8^3", "default", "kinetic energy # J, # times what it had"}};
+    {"cross-through", "8^3", "least", "the bodies feel # of the peak more or less than"}};
 
 /// The red cells of the table on the terminal: a line each, and below it the reason, after the step.
 std::vector<Red> red_cells(const std::vector<std::string>& lines) {
