@@ -67,6 +67,9 @@ std::vector<Case> body_cases() {
                      .title = "a plate of 0.3 cells turns slowly in a stream",
                      .provokes = "the force jumps when an edge passes a cell",
                      .wants = "from step to step the force changes by less than a quarter of its peak",
+                     .when_red = "a plate thinner than a cell closes a layer of faces; as it turns it goes "
+                                 "over from one layer to the next, and what it displaces there is met in one "
+                                 "step. The hand is held to its slew limit",
                      .change =
                          [](Scene& s) {
                              plate(s, 0.0);
@@ -86,6 +89,9 @@ std::vector<Case> body_cases() {
          .provokes = "solid that is counted twice, a pocket between the two",
          .wants = "the force on neither jumps by more than half its peak; both together take "
                   "what the fluid's momentum loses, to 1e-3 of the peak",
+         .when_red = "where bodies overlap or all but touch, guard gap lets less through the slivers between "
+                     "them than they displace: some of the fluid is lost there, and its momentum with it. "
+                     "Forces stay bounded and do not jump",
          .change =
              [](Scene& s) {
                  s.outputs.force_methods = true;

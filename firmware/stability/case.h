@@ -63,6 +63,7 @@ struct Case {
     std::string title = {};     ///< what happens
     std::string provokes = {};  ///< what it makes fail in a solver that is not ready for it
     std::string wants = {};     ///< in words: what must hold besides the rule; empty: nothing
+    std::string when_red = {};  ///< what is known of it being red: why, and what keeps the exhibit safe
     Drive drive = Drive::Any;
     std::function<void(Scene&)> change = {};
     std::function<void(Moment&)> script = {};

@@ -39,6 +39,10 @@ Case stream(const char* name, const char* title, const char* provokes, std::func
             .title = title,
             .provokes = provokes,
             .wants = "as much flows out as in, to 1 %, as in case A17-precise of eddy accuracy",
+            .when_red =
+                "an inflow that begins or ends within a step has the whole tank follow in that step: "
+                "more than the cycles of the least effort solve. What is left of it flows out in the "
+                "steps after; energy and force stay within the rule",
             .change = std::move(change),
             .script = rest_in_the_middle,
             .complaint = volume_balances(1e-2),

@@ -86,6 +86,20 @@ std::string overview(std::span<const Cell> cells, std::span<const Result> result
     return head + "\n" + line + "\n" + text;
 }
 
+/// What is known of the cases that are red.
+std::string known_of_red(std::span<const Result> results) {
+    std::string text;
+    for (const Case& one : all_cases()) {
+        const bool red = std::any_of(results.begin(), results.end(), [&](const Result& r) {
+            return r.name == one.name && !r.outcome.verdict.pass;
+        });
+        if (red)
+            text += fmt::format("- `{}`: {}.\n", one.name,
+                                one.when_red.empty() ? "nobody has found out why yet" : one.when_red);
+    }
+    return text;
+}
+
 constexpr const char* kReportHead =
     "| case | name | grid | effort | steps | | energy | force [N] | calm after [s] | not finite | took [s] "
     "| figures | tried, version |\n"
@@ -171,7 +185,7 @@ std::string report_of(std::span<const Cell> cells, std::span<const Result> resul
             if (!r.outcome.verdict.pass)
                 text += fmt::format("| {} | {} | {} | {} | {} |\n", r.number, r.name, r.grid, r.effort,
                                     r.outcome.verdict.reason);
-        text += "\n";
+        text += "\n" + known_of_red(results) + "\n";
     }
     text += "## All of it\n\n" + overview(cells, results) + "\n## Single cases\n\n";
     text += kReportHead;

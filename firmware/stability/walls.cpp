@@ -23,6 +23,11 @@ Case cover(const char* name, const char* title, double share) {
         .title = title,
         .provokes = "what flows in has nowhere to go: no pressure solves it",
         .wants = "the pressure stays bounded, and does not drift unless it is small",
+        .when_red =
+            "what flows in behind a lid that closes the tank has nowhere to go; no incompressible flow "
+            "does that, and no pressure is enough. Guard pocket bounds the pressure, so the force on "
+            "the lid ends; what the solver cannot place moves the fluid before the lid, faster than "
+            "it flows in",
         .change =
             [share](Scene& s) {
                 stream_through(s, vector_of({kStream, 0.0, 0.0}));

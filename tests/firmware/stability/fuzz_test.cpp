@@ -12,7 +12,7 @@ using FuzzTest = gles::GlTest;
 
 /// Seeds whose scenes break the rule. Whoever mends one takes it off.
 const std::set<std::uint64_t> kKnownRed{
-    25,      // a torus closes a pocket: 82 times as fast as what moves it
+    25,  // a torus closes a pocket: 82 times as fast as what moves it
 };
 
 // `eddy stability --fuzz 1000` tries more.

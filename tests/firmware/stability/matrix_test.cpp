@@ -110,6 +110,7 @@ TEST(HardMatrix, ItsReportNamesWhatIsRedAndWhyAndWhatWasNotRun) {
     const std::vector<Result> results{a_result("stall", true), a_result("jitter", false)};
     const std::string report = report_of(cells, results, "a renderer", "a machine", {"folder/heat_map.png"});
     EXPECT_THAT(report, HasSubstr("| 2 | jitter | 8^3 | least | step 3: a \"bad\", long reason |"));
+    EXPECT_THAT(report, HasSubstr("- `jitter`: nobody has found out why yet."));
     EXPECT_THAT(report, HasSubstr("1 of 2 (8 more not run) cells of single cases"));
     EXPECT_THAT(report, HasSubstr("| 2 | stall | not run | green | not run | not run |  |"));
     EXPECT_THAT(report,
@@ -117,6 +118,8 @@ TEST(HardMatrix, ItsReportNamesWhatIsRedAndWhyAndWhatWasNotRun) {
     EXPECT_THAT(report, HasSubstr("| half, at least | 2026-11-22, 0.1 |"));
     EXPECT_THAT(report, HasSubstr("](heat_map.png)"));
     EXPECT_THAT(table_line(results[1]), HasSubstr("RED"));
+    EXPECT_THAT(report_of(cells, std::vector{a_result("covers-all", false)}, "a renderer", "a machine", {}),
+                HasSubstr("- `covers-all`: what flows in behind a lid"));
     EXPECT_THAT(heat_map_of(results, "folder").commands, HasSubstr("'jitter' 1"));
 }
 
