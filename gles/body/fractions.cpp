@@ -95,7 +95,8 @@ Fractions::Fractions(Gpu& gpu, const std::vector<glm::ivec3>& grids, const std::
       volumes_(new_fractions(gpu, grids[0])),
       finest_(gpu, "fractions", "gles/body/fractions.frag", Faces4::layout(grids[0]),
               finest_variant(bodies, cell_m)),
-      sharpen_(gpu, "sharpen fractions", "gles/body/sharpen_fractions.frag", Faces4::layout(grids[0])),
+      sharpen_(gpu, "sharpen fractions", "gles/body/sharpen_fractions.frag", Faces4::layout(grids[0]),
+               {.defines = {{"CELLS", glsl(grids[0])}}}),
       are_thin_(any_thin_body(bodies, cell_m)) {
     for (const glm::ivec3& n : grids) levels_.push_back(new_fractions(gpu, n));
     for (std::size_t l = 0; l + 1 < grids.size(); ++l)

@@ -35,6 +35,6 @@ void main() {
     vec4 below = vec4(share(at_clamped(az, TARGET, c - ivec3(0, 0, 1))).w, z.xyz);
     vec4 above = vec4(z.yzw, share(at_clamped(az, TARGET, c + ivec3(0, 0, 1))).x);
     if (c.z == 0) below.x = z.x;  // beyond the tank there is nothing to give
-    if (c.z + 1 == TARGET.size.z) above.w = z.w;
+    above = mix(above, z, greaterThanEqual(4 * c.z + ivec4(0, 1, 2, 3), ivec4(CELLS.z)));
     out_az = z + gain(z, above) + gain(z, below);
 }
