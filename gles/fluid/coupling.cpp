@@ -135,6 +135,7 @@ void Coupling::reset() {
         triple.acceleration = glm::dvec3(0.0);
     }
     boxes_before_.clear();
+    cold_ = true;
 }
 
 bool Coupling::solves_for_the_same_as(const Coupling& other) const {
@@ -154,6 +155,7 @@ bool Coupling::copy(const Coupling& from, Resample& resample) {
         to.acceleration = of.acceleration;
         to.trust = of.trust;
     }
+    cold_ = from.cold_;
     return true;
 }
 
@@ -206,7 +208,8 @@ void Coupling::draw_potentials(const std::vector<BodyState>& states, const FaceF
     touched.insert(touched.end(), boxes_before_.begin(), boxes_before_.end());
     boxes_before_ = boxes;
     const Pressure::Work work{
-        .cycles = kCycles + (since.empty() ? kColdCycles : 0), .cut = boxes, .rough = boxes};
+        .cycles = kCycles + (cold_ ? kColdCycles : 0), .cut = boxes, .rough = boxes};
+    cold_ = false;
     for (Triple& triple : triples_) {
         const std::size_t body = bodies_[triple.body].index;
         for (std::size_t axis = 0; axis < triple.potentials.size(); ++axis) {
@@ -254,6 +257,7 @@ Coupling::Unknown Coupling::unknown(std::size_t k) const {
 LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& step, const Sums& sums) {
     const double h = setup_.cell_m, cell_mass = setup_.density_kg_m3 * h * h * h, dt = step.dt_s;
     LinearSystem system(3 * triples_.size()), resistance = system;
+    double rate = 0.0;  // of a triple
     for (std::size_t k = 0; k < system.unknowns(); ++k) {
         const Unknown u = unknown(k);
         const Body& body = bodies_[u.body];
@@ -262,7 +266,7 @@ LinearSystem Coupling::newton(const std::vector<BodyState>& states, const Step& 
         const Vector6 before = body.solid.momentum(before_[u.index], guess.orientation);
         const Vector6 motion{guess.velocity_m_s.x, guess.velocity_m_s.y, guess.velocity_m_s.z,
                              guess.spin_rad_s.x,   guess.spin_rad_s.y,   guess.spin_rad_s.z};
-        const double rate = resistance_1_s(setup_, states, u.index, triples_[k / 3].turns, dt);
+        if (k % 3 == 0) rate = resistance_1_s(setup_, states, u.index, triples_[k / 3].turns, dt);
         double momentum = before[u.component];
         for (std::size_t c = 0; c < 6; ++c) momentum -= mass[u.component][c] * motion[c];
         // What the water that would be in its place weighs is what carries it at rest; exactly that, on this grid.
@@ -295,19 +299,16 @@ void Coupling::solve(std::vector<BodyState>& states, const Step& step) {
     const double fastest_m_s = fastest_body_m_s(setup_, step.dt_s);
     for (std::size_t t = 0; t < triples_.size(); ++t) {
         Triple& triple = triples_[t];
-        triple.change = {change[3 * t], change[3 * t + 1], change[3 * t + 2]};
-        BodyState& state = states[bodies_[triple.body].index];
-        const BodyState& old = before_[bodies_[triple.body].index];
-        glm::dvec3 gained;
-        (triple.turns ? state.spin_rad_s : state.velocity_m_s) +=
-            triple.turns ? triple.change / setup_.cell_m : triple.change;
-        slow_down(state, setup_.bodies[bodies_[triple.body].index].shape,
-                  fastest_m_s);  // guard coupled_speed
-        if (triple.turns) {
-            gained = setup_.cell_m * (state.spin_rad_s - old.spin_rad_s);
-        } else {
-            gained = state.velocity_m_s - old.velocity_m_s;
-        }
+        const Body& body = bodies_[triple.body];
+        BodyState& state = states[body.index];
+        const BodyState& old = before_[body.index];
+        glm::dvec3& own = triple.turns ? state.spin_rad_s : state.velocity_m_s;
+        const double scale = triple.turns ? setup_.cell_m : 1.0;
+        const glm::dvec3 guess = own;
+        own += glm::dvec3(change[3 * t], change[3 * t + 1], change[3 * t + 2]) / scale;
+        slow_down(state, setup_.bodies[body.index].shape, fastest_m_s);  // guard coupled_speed
+        triple.change = scale * (own - guess);
+        const glm::dvec3 gained = scale * (own - (triple.turns ? old.spin_rad_s : old.velocity_m_s));
         // What a wall or another body took is no sign of what comes next.
         triple.acceleration = contacts_.along(3 * t, gained) / step.dt_s;
     }

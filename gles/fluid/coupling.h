@@ -75,7 +75,7 @@ class Coupling {
         std::vector<Field<Cells4>> potentials{};  ///< phi_k; none if pressure cannot turn it
         glm::dvec3 acceleration{0.0};             ///< in the last step
         glm::dvec3 trust{1.0};                    ///< share of it that the next guess goes on with
-        glm::dvec3 change{0.0};                   ///< V - V_g
+        glm::dvec3 change{0.0};                   ///< V - V_g, as the body has it
     };
     /// Velocity number k = 3 (triple) + axis: which body (in bodies_, in the scene), which of its six velocities, and what
     /// makes SI of it.
@@ -102,6 +102,7 @@ class Coupling {
     std::vector<Triple> triples_;
     std::vector<BodyState> before_;  // all bodies, at the end of the last step
     std::vector<Box> boxes_before_;
+    bool cold_ = true;  // potentials start from 0
     Contacts contacts_;
     std::vector<Contacts::Unknowns> unknowns_;  // of each body of the scene
     Pass flux_, add_;
