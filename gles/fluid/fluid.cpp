@@ -27,6 +27,7 @@ void Fluid::take_over(const Fluid& from) {
     bodies_ = from.bodies_;
     forget_answers();
     resume(from.state());
+    taken_ = steps();
 }
 
 bool StepResult::is_sound() const {
@@ -43,11 +44,12 @@ void Fluid::step(double dt_s, const std::vector<BodyState>& bodies, bool diagnos
 
 std::optional<StepResult> Fluid::result(bool wait) {
     if (auto result = take_result(wait)) {
-        if (!result->is_sound()) ++guards_.unsound_steps;
+        if (!result->is_sound()) ++guards_.unsound_steps;  // guard unsound_steps
         last_ = result;
+        taken_ = result->step;
         return result;
     }
-    const bool all_taken = wait || (last_ ? last_->step : 0) == steps();
+    const bool all_taken = wait || taken_ == steps();
     if (again_ == 0 || !all_taken) return std::nullopt;
     --again_;
     return last_ ? *last_ : StepResult{.loads = std::vector<Load>(setup_.bodies.size())};
@@ -56,6 +58,7 @@ std::optional<StepResult> Fluid::result(bool wait) {
 void Fluid::reset() {
     forget_answers();
     start_over();
+    taken_ = 0;
 }
 
 void Fluid::forget_answers() {

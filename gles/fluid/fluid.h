@@ -101,6 +101,7 @@ class Fluid {
 
     GuardCounts guards_;
     std::optional<StepResult> last_;  ///< given out
+    long taken_ = 0;                  ///< the step of the last answer taken, or where it went on from
     long again_ = 0;                  ///< answers that are to be the last one again
 };
 
