@@ -31,6 +31,11 @@ vec4 at_clamped(sampler2D field, const Layout l, ivec3 c) {
     return at(field, l, clamp(c, ivec3(0), l.size - 1));
 }
 
+// Of four cells that lie over each other, that in layer z.
+float lane(vec4 four, int z) {
+    return dot(four, vec4(equal(ivec4(z & 3), ivec4(0, 1, 2, 3))));
+}
+
 // Linear in x and y within slab z. s: position in texels of the slab, texel centres at +1/2, inside [1/2, size - 1/2].
 vec4 sample_slab(sampler2D field, const Layout l, vec2 s, int z) {
     vec2 origin = vec2((z % l.tiles_x) * l.size.x, (z / l.tiles_x) * l.size.y);

@@ -8,8 +8,12 @@ const uint kAllButSign = 0x7fffffffu;
 // Smoke is a density around 1 and heat some hundred kelvins: no scene comes near this in years of steps.
 const float kMostScalar = 1e12;
 
+uvec4 bits_of(vec4 v) {
+    return floatBitsToUint(v) & kAllButSign;
+}
+
 bvec4 unsound(vec4 v, float most) {
-    return greaterThan(floatBitsToUint(v) & kAllButSign, uvec4(floatBitsToUint(most)));
+    return greaterThan(bits_of(v), uvec4(floatBitsToUint(most)));
 }
 
 vec4 sound(vec4 v, float most) {

@@ -79,6 +79,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
 void CutCellFluid::start_over() {
     set_velocity(velocity_at_start(setup_));
     clear(phi_.texture());
+    diffused_ = {};
     if (smoke_) smoke_->reset();
     if (temperature_) temperature_->reset();
     results_.forget();
@@ -169,7 +170,7 @@ Field<Cells4> CutCellFluid::advance(Part part, double start_s, std::vector<BodyS
     if (!second_half) {
         Gpu::Stage stage(gpu_, "pressure");
         if (pressure_level_) phi_ = pressure_level_->put_right(phi_, sound_.most_phi);
-        phi_ = pressure_.follow(std::move(phi_), since_last_pressure(part, bodies));
+        phi_ = pressure_.follow(std::move(phi_), since_last_pressure(part, bodies), sound_.most_phi);
     }
     if (viscosity_) {
         Gpu::Stage stage(gpu_, "viscosity");
@@ -288,7 +289,7 @@ Field<Cells4> CutCellFluid::divergence(const Field<Faces>& u) {
 }
 
 Field<Faces> CutCellFluid::project(const Field<Faces>& u, const Field<Cells4>& phi, float scale) {
-    return projection_.project(u, phi, scale, {sound_.most_phi, driven_.through_gaps_m_s(dt_s_)}, boxes_,
+    return projection_.project(u, phi, scale, {.through_gaps_m_s = driven_.through_gaps_m_s(dt_s_)}, boxes_,
                                walls_.time(time_s_));
 }
 

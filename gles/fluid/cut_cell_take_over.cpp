@@ -43,6 +43,7 @@ void CutCellFluid::resume(const FluidState& from) {
     phi_ = from.phi4 ? resample_->in_fours(*from.phi4, gain) : resample_->in_fours(*from.phi, gain);
     if (smoke_) smoke_->take_over(from.smoke, *resample_);
     if (temperature_) temperature_->take_over(from.temperature, *resample_);
+    diffused_ = {};
     if (viscosity_ && step_ > 0) {
         diffused_ = resample_->on_faces(from.diffused ? *from.diffused : u_);
         if (setup_.cell_m < 0.999 * from.setup.cell_m) settle();

@@ -8,10 +8,6 @@ uniform sampler2D field;
 #ifdef CUT
 uniform sampler2D ax, ay, az;
 
-float lane(vec4 four, int z) {
-    return dot(four, vec4(equal(ivec4(z & 3), ivec4(0, 1, 2, 3))));
-}
-
 // Of the lower and upper faces of a cell.
 void openings(ivec3 c, out vec3 low, out vec3 high) {
     ivec3 here = ivec3(c.xy, c.z >> 2), above = ivec3(c.xy, (c.z + 1) >> 2);

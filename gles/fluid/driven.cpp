@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "gles/body/bounds.h"
+#include "gles/fluid/no_limit.h"
 #include "gles/fluid/transport.h"
 
 namespace eddy::gles {
@@ -16,8 +17,6 @@ constexpr double kThroughGaps = 3.0, kCellsThroughGaps = 5.0;
 /// A change in one step, relative to the speed of what drives the fluid: a smooth inflow of 1 Hz changes by an eighth at most in
 /// steps of 20 ms.
 constexpr double kSudden = 0.25;
-/// Faster than anything, and a number still when multiplied by a few.
-constexpr double kUnlimited = 1e30;
 /// Places where a wall's velocity is looked at, each way: an inlet half as wide as one in sixteen of a side is not missed.
 constexpr int kPlaces = 16;
 
@@ -75,8 +74,8 @@ void Driven::start(double speed_m_s) {
 }
 
 void Driven::take_over(const Driven* from, double time_s) {
-    known_lately_m_s_ = from ? from->known_lately_m_s_ : 0.0;
-    known_ever_m_s_ = from ? from->known_ever_m_s_ : kUnlimited;
+    known_lately_m_s_ = from ? from->known_lately_m_s_ : kNoLimit;
+    known_ever_m_s_ = from ? from->known_ever_m_s_ : kNoLimit;
     inflow_m_s_ = from ? from->inflow_m_s_ : inflow_m_s(*setup_, time_s, time_s);
 }
 
@@ -103,13 +102,13 @@ void Driven::go_on(const std::vector<BodyState>& bodies, double time_s, double d
 }
 
 double Driven::lately_m_s() const {
-    return unknown_ ? kUnlimited : known_lately_m_s_;
+    return unknown_ ? kNoLimit : known_lately_m_s_;
 }
 
 double Driven::through_gaps_m_s(double dt_s) const {
-    if (setup_->acceleration_m_s2) return kUnlimited;
+    if (setup_->acceleration_m_s2) return kNoLimit;
     const double driven = kThroughGaps * known_ever_m_s_ + dt_s * glm::length(setup_->gravity_m_s2);
-    return std::min(kUnlimited,
+    return std::min(kNoLimit,
                     unknown_ ? std::max(driven, kCellsThroughGaps * setup_->cell_m / dt_s) : driven);
 }
 

@@ -18,7 +18,7 @@ class Driven {
     /// After dt_s in which the bodies got to these states; `time_s`: when that began.
     void go_on(const std::vector<BodyState>& bodies, double time_s, double dt_s);
 
-    /// Infinite where it is not known. Vorticity confinement pushes no fluid that is much faster: it would feed an eddy for ever.
+    /// kNoLimit where it is not known. Vorticity confinement pushes no fluid that is much faster: it would feed an eddy for ever.
     double lately_m_s() const;
     /// What goes through a gap of less than a quarter of a cell, relative to its sides: the gap closes or opens faster than any
     /// cell can tell, and continuity would have the fluid a thousand times as fast as the body. With what gravity adds in a step,

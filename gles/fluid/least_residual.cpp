@@ -24,8 +24,8 @@ void LeastResidual::restart() {
     q_ = {};
 }
 
-void LeastResidual::correct(Field<Cells4>& phi, float scale, float most_phi, Field<Cells4>& r,
-                            const Field<Cells4>& z, const Field<Cells4>& r_z) {
+void LeastResidual::correct(Field<Cells4>& phi, Field<Cells4>& r, const Field<Cells4>& z,
+                            const Field<Cells4>& r_z) {
     Passes& passes = p_ ? next_ : first_;
     std::vector<Input> inputs{{"r", &r.texture()}, {"r_z", &r_z.texture()}};
     if (p_) inputs.push_back({"q_last", &q_.texture()});
@@ -38,8 +38,7 @@ void LeastResidual::correct(Field<Cells4>& phi, float scale, float most_phi, Fie
     if (p_) inputs.push_back({"p_last", &p_.texture()});
     Field<Cells4> new_phi(*gpu_, cells_, Format::RGBA32F), new_r(*gpu_, cells_, Format::RGBA32F),
         p(*gpu_, cells_, Format::RGBA32F), q(*gpu_, cells_, Format::RGBA32F);
-    passes.step.draw(inputs, {{"scale", scale}, {"most_phi", most_phi}},
-                     {&new_phi.texture(), &new_r.texture(), &p.texture(), &q.texture()});
+    passes.step.draw(inputs, {}, {&new_phi.texture(), &new_r.texture(), &p.texture(), &q.texture()});
     phi = std::move(new_phi);
     r = std::move(new_r);
     p_ = std::move(p);

@@ -7,13 +7,7 @@
 // fetches 7, FIRST 5
 //
 // beta makes A p orthogonal to the last one, and r is orthogonal to that already: so alpha = q.r / q.q is the best of both.
-#ifdef FIRST
-#include "guard.glsl"
-uniform float most_phi;
-#endif
-
 uniform sampler2D products, phi, z, r, r_z;
-uniform float scale;  // of the phi that is read
 #ifndef FIRST
 uniform sampler2D p_last, q_last;
 #endif
@@ -28,10 +22,9 @@ const float kNothing = 1e-37;
 void main() {
     ivec3 c = cell_here(TARGET);
     vec4 left = at(r, TARGET, c), sums = texelFetch(products, ivec2(0), 0);
-    new_phi = scale * at(phi, TARGET, c);
+    new_phi = at(phi, TARGET, c);
     new_r = left;
 #ifdef FIRST
-    new_phi = kept(new_phi, scale * most_phi);  // guard guess
     const float beta = 0.0;
     p = q = vec4(0.0);
 #else

@@ -16,9 +16,8 @@ class LeastResidual {
 
     /// Forgets the last direction: another equation follows.
     void restart();
-    /// Moves phi (`scale` times what it was; the first time it is a guess, and none where beyond `most_phi`) and its residual r = b - A phi. r_z = r - A z.
-    void correct(Field<Cells4>& phi, float scale, float most_phi, Field<Cells4>& r, const Field<Cells4>& z,
-                 const Field<Cells4>& r_z);
+    /// Moves phi and its residual r = b - A phi. r_z = r - A z.
+    void correct(Field<Cells4>& phi, Field<Cells4>& r, const Field<Cells4>& z, const Field<Cells4>& r_z);
 
   private:
     struct Passes {

@@ -27,12 +27,13 @@ void main() {
     vec3 x = vec3(c) + 0.5;
     vec3 displacement = sound(dt_h * velocity_in_cell(velocity, c), FARTHEST);  // guard carrier
     vec4 least, most;
-    donors(scalar, TARGET, x - displacement, least, most);
+    uvec4 bits;
+    donors(scalar, TARGET, x - displacement, least, most, bits);
     float back = sample_linear(forward, TARGET, x + displacement).x;
     // Where the way back leaves the tank through an opening nothing is known of the error.
     float ahead = at(forward, TARGET, c).x;
     float s = ahead + 0.5 * from_inside(x + displacement) * (at(scalar, TARGET, c).x - back);
-    s = limited(s, ahead, least.x, most.x, kMostScalar);
+    s = limited(s, ahead, least.x, most.x, bits.x, kMostScalar);
     float carried = sound(from_inside(x - displacement) * s, kMostScalar);  // guard scalar
     result = remains * carried + from_sources(x);
 }

@@ -28,12 +28,13 @@ vec3 within_rows(int component, vec3 s) {
 // One component; near a wall the fluid sticks to, the wall is a donor too.
 float corrected(int component, vec3 s, vec3 displacement, vec4 here, vec4 ahead) {
     vec4 least, most;
-    donors(velocity, FACES, s - displacement, least, most);
+    uvec4 bits;
+    donors(velocity, FACES, s - displacement, least, most, bits);
     float back = to_walls(sample_linear(forward, FACES, within_rows(component, s + displacement))[component], component,
                           s + displacement);
     float donor = to_walls(ahead[component], component, s - displacement);
     return limited(ahead[component] + 0.5 * (here[component] - back), ahead[component], min(least[component], donor),
-                   max(most[component], donor), FARTHEST / dt_h);
+                   max(most[component], donor), bits[component], FARTHEST / dt_h);
 }
 
 void main() {

@@ -86,8 +86,7 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
         least_residual_.emplace(gpu, cells);
         const AtlasLayout finest = Cells4::layout(cells);
         residual_.emplace(make(gpu, "residual", "gles/fluid/residual.frag", 0, finest, {}, walls));
-        guess_residual_.emplace(make(gpu, "residual of guess", "gles/fluid/residual.frag", 0, finest,
-                                     {.defines = {{"GUESS", ""}}}, walls));
+        keep_.emplace(gpu, "keep pressure", "gles/fluid/keep_pressure.frag", finest);
     }
     for (std::size_t l = 0; l < grids.size(); ++l) {
         Level& level = levels_[l];
@@ -186,7 +185,7 @@ void Pressure::sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std
     sweep(there, kSmoother[1], phi, near);
 }
 
-Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<Displacement>& since) {
+Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<Displacement>& since, float most_phi) {
     Field<Cells4> moved(*gpu_, levels_[0].cells, Format::RGBA32F);
     for (const Displacement& body : since) {
         if (glm::length(body.moved) < 1e-3f) continue;
@@ -196,7 +195,11 @@ Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<Displacement
         const Region region = Region::packed({box.intersect({glm::ivec3(0), levels_[0].cells})});
         follow_->draw(
             {{"phi", &phi.texture()}},
-            {{"centre", body.centre}, {"moved", body.moved}, {"inner", 1.5f * body.radius}, {"reach", reach}},
+            {{"centre", body.centre},
+             {"moved", body.moved},
+             {"inner", 1.5f * body.radius},
+             {"reach", reach},
+             {"most_phi", most_phi}},
             {&moved.texture()}, region);
         copy_back_->draw({{"field", &moved.texture()}}, {}, {&phi.texture()}, region);
     }
@@ -242,7 +245,7 @@ Field<Cells4> Pressure::cycles(std::optional<Field<Cells4>> phi, const Field<Cel
         for (Box& box : at_level) box = box.coarsen().grow(1);
     }
     if (least_residual_)
-        phi = least_residual_cycles(std::move(phi), b, work);
+        phi = least_residual_cycles(phi, b, work);
     else
         for (int i = 0; i < work.cycles; ++i)
             phi = cycle(0, std::move(phi),
@@ -251,30 +254,27 @@ Field<Cells4> Pressure::cycles(std::optional<Field<Cells4>> phi, const Field<Cel
     return *std::move(phi);
 }
 
-Field<Cells4> Pressure::residual(const Field<Cells4>& phi, const std::optional<Guess>& guess,
-                                 const Field<Cells4>& b) {
+Field<Cells4> Pressure::residual(const Field<Cells4>& phi, const Field<Cells4>& b) {
     Field<Cells4> r(*gpu_, levels_[0].cells, Format::RGBA32F);
-    std::vector<Uniform> uniforms;
-    if (guess) uniforms = {{"scale", guess->scale}, {"most_phi", guess->most_phi}};
-    draw(guess ? *guess_residual_ : *residual_, 0, {{"phi", &phi.texture()}, {"b", &b.texture()}}, uniforms,
-         r.texture(), levels_[0].boxes);
+    draw(*residual_, 0, {{"phi", &phi.texture()}, {"b", &b.texture()}}, {}, r.texture(), levels_[0].boxes);
     return r;
 }
 
-Field<Cells4> Pressure::least_residual_cycles(std::optional<Field<Cells4>> phi, const Field<Cells4>& b,
-                                              const Work& work) {
-    if (!phi) {
-        phi.emplace(*gpu_, levels_[0].cells, Format::RGBA32F);
-        clear(phi->texture());
-    }
-    Guess guess{work.guess_scale, work.most_phi};
-    Field<Cells4> r = residual(*phi, guess, b);
+Field<Cells4> Pressure::least_residual_cycles(const std::optional<Field<Cells4>>& guess,
+                                              const Field<Cells4>& b, const Work& work) {
+    Field<Cells4> phi(*gpu_, levels_[0].cells, Format::RGBA32F);
+    if (guess)
+        keep_->draw({{"phi", &guess->texture()}},
+                    {{"scale", work.guess_scale}, {"most_phi", work.most_phi}}, {&phi.texture()});
+    else
+        clear(phi.texture());
+    Field<Cells4> r = residual(phi, b);
     least_residual_->restart();
-    for (int i = 0; i < work.cycles; ++i, guess.scale = 1.0f) {
+    for (int i = 0; i < work.cycles; ++i) {
         const Field<Cells4> z = cycle(0, std::nullopt, std::nullopt, r);
-        least_residual_->correct(*phi, guess.scale, guess.most_phi, r, z, residual(z, std::nullopt, r));
+        least_residual_->correct(phi, r, z, residual(z, r));
     }
-    return *std::move(phi);
+    return phi;
 }
 
 }  // namespace eddy::gles

@@ -5,6 +5,7 @@
 #include "gles/body/displacement.h"
 #include "gles/body/fractions.h"
 #include "gles/fluid/least_residual.h"
+#include "gles/fluid/no_limit.h"
 #include "gles/fluid/walls.h"
 
 namespace eddy::gles {
@@ -33,13 +34,13 @@ class Pressure {
     Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions, const Walls& walls,
              bool from_zero = false);
 
-    /// Moves phi along with the bodies, to serve as first guess for where they are now; `boxes` as for
-    /// solve().
-    Field<Cells4> follow(Field<Cells4> phi, const std::vector<Displacement>& since);
+    /// Moves phi along with the bodies, to serve as first guess for where they are now. Beyond `most_phi` it counts as 0.
+    Field<Cells4> follow(Field<Cells4> phi, const std::vector<Displacement>& since,
+                         float most_phi = kNoLimit);
     struct Work {
         int cycles = 2;            ///< V-cycles
         float guess_scale = 1.0f;  ///< the first guess is this times phi, which grows with dt
-        float most_phi = 1e30f;    ///< a phi beyond that is no guess (step_guard.h)
+        float most_phi = kNoLimit;  ///< of the guess; see kept() in guard.glsl
         std::vector<Box> cut{};    ///< cells whose fractions may not be 1
         std::vector<Box> rough{};  ///< those, and all where b jumps from cell to cell: swept twice more
     };
@@ -77,9 +78,8 @@ class Pressure {
     Field<Cells4> sweep_from_zero(std::size_t l, const Field<Cells4>& b, float omega);
     void sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std::vector<Box>& boxes);
     Field<Cells4> cycles(std::optional<Field<Cells4>> phi, const Field<Cells4>& b, const Work& work);
-    Field<Cells4> residual(const Field<Cells4>& phi, const std::optional<Guess>& guess,
-                           const Field<Cells4>& b);
-    Field<Cells4> least_residual_cycles(std::optional<Field<Cells4>> phi, const Field<Cells4>& b,
+    Field<Cells4> residual(const Field<Cells4>& phi, const Field<Cells4>& b);
+    Field<Cells4> least_residual_cycles(const std::optional<Field<Cells4>>& guess, const Field<Cells4>& b,
                                         const Work& work);
     Field<Cells4> cycle(std::size_t l, std::optional<Field<Cells4>> phi, const std::optional<Guess>& guess,
                         const Field<Cells4>& b);
@@ -90,7 +90,8 @@ class Pressure {
     std::vector<Level> levels_;
     std::optional<Pass> follow_, copy_back_;
     std::optional<LeastResidual> least_residual_;  ///< with thin bodies
-    std::optional<Split> residual_, guess_residual_;
+    std::optional<Pass> keep_;
+    std::optional<Split> residual_;
 };
 
 /// Relaxation weights of m weighted-Jacobi sweeps that together damp the eigenvalues [low, high] of D^-1 A as

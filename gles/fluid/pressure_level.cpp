@@ -28,7 +28,7 @@ Field<Cells4> PressureLevel::put_right(const Field<Cells4>& phi, float most_phi)
     const TexturePool::Lease sum = gpu_->textures().lease({1, 1}, Format::RGBA32F);
     sum_.draw({{"phi", &phi.texture()}}, {{"most_phi", most_phi}}, *sum);
     Field<Cells4> right(*gpu_, phi.cells(), Format::RGBA32F);
-    subtract_.draw({{"phi", &phi.texture()}, {"sum", &*sum}}, {}, {&right.texture()});
+    subtract_.draw({{"phi", &phi.texture()}, {"sum", &*sum}}, {{"most_phi", most_phi}}, {&right.texture()});
     return right;
 }
 

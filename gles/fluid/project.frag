@@ -27,10 +27,6 @@ const float kGap = 0.25;
 
 out vec4 result;
 
-float lane(vec4 four, int z) {
-    return dot(four, vec4(equal(ivec4(z & 3), ivec4(0, 1, 2, 3))));
-}
-
 float potential(ivec3 c) {
     c = clamp(c, ivec3(0), CELLS - 1);
     float p = lane(at(phi, PHI, ivec3(c.xy, c.z >> 2)), c.z);

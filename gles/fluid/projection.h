@@ -3,12 +3,10 @@
 #include <vector>
 
 #include "gles/body/fractions.h"
+#include "gles/fluid/no_limit.h"
 #include "gles/fluid/walls.h"
 
 namespace eddy::gles {
-
-/// A speed [m/s] that limits nothing, and is a number still when multiplied by a few.
-inline constexpr double kNoLimit = 1e30;
 
 /// Between the velocities on faces and the pressures in cells: divergence, and the gradient taken off. Both are drawn over
 /// the whole grid as if nothing solid were in it, then again, with the fluid's share of each face, over the boxes around
@@ -24,7 +22,7 @@ class Projection {
     Field<Cells4> divergence(const Field<Faces>& u, double through_gaps_m_s, const std::vector<Box>& boxes,
                              const Uniform& wall_time);
     struct Limits {
-        float most_phi = 0.0f;               ///< beyond it a phi counts as 0 (step_guard.h)
+        float most_phi = kNoLimit;           ///< of a phi of the last step; see kept() in guard.glsl
         double through_gaps_m_s = kNoLimit;  ///< see Driven
     };
     /// u - scale grad phi, and on walls and in solids their velocity. Where there is no viscous step that would start with the

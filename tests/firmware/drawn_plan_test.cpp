@@ -213,6 +213,7 @@ const Caller kCallers[] = {
     {"imposed flow", [](const Scene& s) { return s.imposed.has_value(); }},
     {"jacobi", solved},
     {"keep energy", makes_energy},
+    {"keep pressure", thin},
     {"least residual", thin},
     {"owners", [](const Scene& s) { return s.outputs.force_methods; }},
     {"pressure level", closed_with_bodies},
