@@ -7,7 +7,7 @@
 
 namespace eddy::gles {
 
-/// Looks through everything that lives from step to step, as a step finds it: how many texels cannot be (not a number, not
+/// Looks through the flow and what it carries, as a step finds them: how many texels cannot be (not a number, not
 /// finite, beyond step_guard.h's Sound), and how fast the fluid is. Each texel is read once: at 64^3, 0.38 million fetches
 /// of a step's 13, and 0.26 for smoke.
 class HealthCheck {

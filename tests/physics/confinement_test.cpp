@@ -36,7 +36,7 @@ TEST_F(VorticityConfinement, GivesBackWhatTheTransportSmoothsAway) {
     EXPECT_LT(with, 2.0 * without);
 }
 
-/// The greatest speed in 400 steps with confinement twenty times as strong as would do, of an eddy that begins with 0.36 m/s.
+/// The greatest speed in 400 steps with confinement as strong as a step can take, ten times what would do, of an eddy that begins with 0.36 m/s.
 double fastest_overfed(Gpu& gpu, bool driver_is_known) {
     FluidSetup s = eddy_in_a_box(1.0);
     s.cells = {16, 16, 6};
