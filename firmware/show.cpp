@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "firmware/fluid_setup.h"
 #include "gles/body/bounds.h"
@@ -99,7 +100,7 @@ void Show::set_quality(const Quality& quality) {
     next.take_over(*fluid_);
     fluid_ = &next;
     quality_ = quality;
-    computed_for_.clear();
+    under_way_.clear();
     handover_.begin();
 }
 
@@ -136,6 +137,11 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
         }
         fluid_->step(part.count(), states_, diagnose && n == parts);
         if (!fluid_->bodies().empty()) states_ = fluid_->bodies();  // none if no step could be made of it
+        const glm::dvec3 velocity_m_s = held ? states_[*held].velocity_m_s : glm::dvec3(0.0);
+        under_way_[fluid_->steps()] = {.answers = n == parts ? std::optional(pose.time) : std::nullopt,
+                                       .dt_s = part.count(),
+                                       .velocity_m_s = velocity_m_s,
+                                       .before_m_s = std::exchange(held_velocity_m_s_, velocity_m_s)};
     }
     hand_known_ = held && pose.known;
     figures_.fluid_period_s +=
@@ -143,7 +149,6 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     last_ = now;
     ++figures_.steps;
     figures_.sub_steps += parts - 1;
-    computed_for_[fluid_->steps()] = pose.time;
 }
 
 gles::GuardCounts Show::guards() const {
@@ -158,6 +163,7 @@ void Show::rest(Instant now) {
     if (answer_.sequence == 0) return;
     ++answer_.sequence;  // a new answer, or the loop would take the fluid for dead
     answer_.computed_for = exchange_.pose.newest().time;
+    answer_.velocity_m_s = answer_.acceleration_m_s2 = glm::dvec3(0.0);
     exchange_.fluid.publish(answer_);
 }
 
@@ -165,8 +171,9 @@ void Show::reset() {
     fluid_->reset();
     time_s_ = 0.0;
     states_ = motions_.at(0.0, scene_.solver.dt_s);
-    computed_for_.clear();
+    under_way_.clear();
     hand_known_ = false;
+    held_velocity_m_s_ = glm::dvec3(0.0);
     ripple_.reset();
     handover_ = {};
 }
@@ -181,20 +188,28 @@ void Show::publish(bool wait) {
             const double mass_kg = scene_.fluid.density_kg_m3 * size_m.x * size_m.y * size_m.z;
             figures_.fluid_speed_m_s = std::sqrt(2.0 * result->diagnostics->kinetic_energy_j / mass_kg);
         }
-        const auto asked = computed_for_.find(result->step);
-        const std::optional<Instant> known =
-            asked != computed_for_.end() ? std::optional(asked->second) : std::nullopt;
-        computed_for_.erase(computed_for_.begin(), computed_for_.upper_bound(result->step));
+        const auto asked = under_way_.find(result->step);
+        const UnderWay step = asked != under_way_.end() ? asked->second : UnderWay{};
+        under_way_.erase(under_way_.begin(), under_way_.upper_bound(result->step));
         figures_.fastest_m_s = result->health.fastest_m_s;
         const auto held = motions_.held();
-        // Of an update's several steps, the last is the answer.
-        if (!held || !known) continue;
-        const Instant computed_for = *known;
         // guard force_withheld: the last good force stands, and fades if no other comes (haptic/law.h)
-        if (!result->is_sound()) continue;
-        const gles::Load load = handover_.hand_on(result->loads[*held], computed_for);
-        answer_ = {load.force_n, load.torque_nm, answer_.sequence + 1, computed_for,
-                   Seconds(figures_.fluid_period_s)};
+        if (!held || !result->is_sound()) continue;
+        gles::Load load = result->loads[*held];
+        if (step.answers) load = handover_.hand_on(load, *step.answers);
+        // Over the mean of two steps: what is taken to set the fluid around the body moving comes back when it stops.
+        received_j_ -= glm::dot(load.force_n, 0.5 * (step.velocity_m_s + step.before_m_s)) * step.dt_s;
+        // Of an update's several steps, the last is the answer.
+        if (!step.answers) continue;
+        const Instant computed_for = *step.answers;
+        answer_ = {.force_n = load.force_n,
+                   .torque_nm = load.torque_nm,
+                   .sequence = answer_.sequence + 1,
+                   .computed_for = computed_for,
+                   .fluid_period = Seconds(figures_.fluid_period_s),
+                   .velocity_m_s = step.velocity_m_s,
+                   .acceleration_m_s2 = (step.velocity_m_s - step.before_m_s) / step.dt_s,
+                   .received_j = received_j_};
         exchange_.fluid.publish(answer_);
         const glm::dvec3 felt_force = load.force_n * scene_.haptics.gain;
         ripple_.add(computed_for, felt_force);

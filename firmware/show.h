@@ -82,9 +82,17 @@ class Show {
     std::vector<gles::BodyState> states_;
     double time_s_ = 0.0;  // of the fluid; falls behind the clock when steps are too slow and dt is capped
     Instant last_{0};
-    bool hand_known_ = false;               // the device gave a position for the last step
-    FluidSnapshot answer_;                  // the last given to the haptic loop
-    std::map<long, Instant> computed_for_;  // step under way -> time of the pose it was given
+    bool hand_known_ = false;  // the device gave a position for the last step
+    FluidSnapshot answer_;     // the last given to the haptic loop
+    double received_j_ = 0.0;  ///< by the fluid from the held body
+    /// A step under way, and how the held body went in it.
+    struct UnderWay {
+        std::optional<Instant> answers{};  ///< time of the pose, if it is the last step of an update
+        double dt_s = 0.0;
+        glm::dvec3 velocity_m_s{0.0}, before_m_s{0.0};  ///< in this step, and in the one before
+    };
+    std::map<long, UnderWay> under_way_;  ///< by the step's number
+    glm::dvec3 held_velocity_m_s_{0.0};   ///< in the last step
     ShowFigures figures_;
     ForceRipple ripple_;
 };

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "firmware/haptic/force_gate.h"
+#include "firmware/haptic/force_law.h"
 #include "firmware/haptic/snapshot.h"
 #include "hal/frames.h"
 #include "hal/haptic/haptic_device.h"
@@ -13,9 +14,13 @@ namespace eddy {
 struct FluidSnapshot {
     glm::dvec3 force_n{0.0};    ///< ON the body BY the fluid, before gain; same axes in Tank and Device frame
     glm::dvec3 torque_nm{0.0};  ///< about the body's centre; for devices that turn, and for the record
-    std::uint64_t sequence = 0;  ///< counts up from 1; 0: nothing computed yet
-    Instant computed_for{0};     ///< PoseSnapshot::time of the pose it answers
-    Seconds fluid_period{0.0};   ///< measured time between fluid updates
+    std::uint64_t sequence = 0;         ///< counts up from 1; 0: nothing computed yet
+    Instant computed_for{0};            ///< PoseSnapshot::time of the pose it answers
+    Seconds fluid_period{0.0};          ///< measured time between fluid updates
+    glm::dvec3 velocity_m_s{0.0};       ///< of the body in the step that gave the force, Tank frame
+    glm::dvec3 acceleration_m_s2{0.0};  ///< from the step before to that one
+    double received_j =
+        0.0;  ///< by the fluid from the body, in all steps since the start; less than 0: given to it
 };
 
 /// To the fluid: where the virtual body is. Always inside the bounds it was given.
@@ -45,6 +50,7 @@ struct LoopReport {
     std::uint64_t missed = 0;  ///< ticks left out because their time had passed
     Instant worst_late{0};
     std::uint64_t impulses = 0;  ///< ticks whose raw force was limited before the filter
+    ForceReport force{};
     GateCounters gate{};
     GateReason reason = GateReason::Disabled;
     HapticState device = HapticState::Absent;

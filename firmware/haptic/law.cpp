@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "firmware/haptic/soft_wall.h"
+
 namespace eddy {
 namespace {
 
@@ -55,7 +57,8 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
     if (!ready || silent) state.hand.forget();
 
     // The fluid's newest answer, held until the next.
-    if (in.fluid.sequence != state.fluid_sequence) {
+    const bool fresh = in.fluid.sequence != state.fluid_sequence;
+    if (fresh) {
         state.fluid_sequence = in.fluid.sequence;
         state.fluid_arrived = in.now;
     }
@@ -63,7 +66,15 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
     LawOutput out;
     out.fluid_age = in.now - state.fluid_arrived;
     out.raw_n = in.orders.gain * in.fluid.force_n;
-    out.filtered_n = state.filter(out.raw_n, in.fluid.fluid_period, dt);
+    out.pose = pose_in_tank(state, in, ready && !silent);
+    const HandAtTick hand{
+        .now = in.now,
+        .known = out.pose.known,
+        .moved_at = in.reading && sound ? std::optional(in.reading->taken_at) : std::nullopt,
+        .body_m = out.pose.position_m,
+        .velocity_m_s = state.hand.velocity_m_s()};
+    out.filtered_n = state.force(in.fluid, fresh, in.orders, hand, dt) +
+                     soft_wall_n(in.orders, state.hand.position_m(), state.hand.velocity_m_s());
     const GateInput gate{.force_n = out.filtered_n,
                          .speed_m_s = sound ? glm::length(state.hand.velocity_m_s())
                                             : std::numeric_limits<double>::quiet_NaN(),
@@ -74,7 +85,7 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
                          .reset = reset};
     out.force_n = state.gate(gate, dt);
     out.reason = state.gate.reason();
-    out.pose = pose_in_tank(state, in, ready && !silent);
+    if (out.reason > GateReason::Starting) state.force.interrupted();
     return out;
 }
 

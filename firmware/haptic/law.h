@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "firmware/haptic/exchange.h"
-#include "firmware/haptic/force_filter.h"
 #include "firmware/haptic/force_gate.h"
+#include "firmware/haptic/hand_force.h"
 #include "firmware/haptic/hand_motion.h"
 
 namespace eddy {
@@ -32,7 +32,7 @@ struct HapticInput {
 /// What the law remembers from tick to tick.
 struct LawState {
     HandMotion hand{};
-    ForceFilter filter{};
+    HandForce force{};
     ForceGate gate{};
     bool answered = false;  ///< the device has given a reading since start or the last reset
     std::uint8_t buttons = 0;
@@ -44,9 +44,9 @@ struct LawState {
 
 struct LawOutput {
     PoseSnapshot pose{};
-    glm::dvec3 raw_n{0.0};  ///< gain * fluid force, held between fluid updates
-    glm::dvec3 filtered_n{0.0};
-    glm::dvec3 force_n{0.0};  ///< through the gate: what the hand gets, Device frame
+    glm::dvec3 raw_n{0.0};       ///< gain * fluid force, held between fluid updates
+    glm::dvec3 filtered_n{0.0};  ///< as wanted of the gate: smoothed, and with the walls of the tank
+    glm::dvec3 force_n{0.0};     ///< through the gate: what the hand gets, Device frame
     GateReason reason = GateReason::Disabled;
     Instant fluid_age{0};  ///< since the held snapshot arrived
 };

@@ -9,7 +9,7 @@ HapticLoop::HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace
     : device_(device),
       exchange_(exchange),
       trace_(trace),
-      state_{.filter = ForceFilter(settings.filter), .gate = ForceGate(settings.gate)} {}
+      state_{.force = HandForce(settings.law, settings.filter), .gate = ForceGate(settings.gate)} {}
 
 void HapticLoop::tick(Instant now) {
     const Seconds dt = report_.ticks > 0 ? now - last_ : kTick;
@@ -40,7 +40,8 @@ void HapticLoop::tick(Instant now) {
                  .reason = out.reason,
                  .buttons = out.pose.buttons});
     ++report_.ticks;
-    report_.impulses = state_.filter.impulses();
+    report_.impulses = state_.force.impulses();
+    report_.force = state_.force.report();
     report_.gate = state_.gate.counters();
     if (!closing_) report_.reason = out.reason;  // the last word of a run is not that it ended
     report_.device = in.device;

@@ -15,6 +15,7 @@ inline constexpr Instant kLate = kTick / 2;
 inline constexpr int kClosingTicks = 10;
 
 struct HapticLoopSettings {
+    ForceLaw law = ForceLaw::Model;
     ForceFilterSettings filter{};
     GateLimits gate{};
 };

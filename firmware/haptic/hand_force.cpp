@@ -1,0 +1,51 @@
+#include "firmware/haptic/hand_force.h"
+
+#include "firmware/haptic/stability_limits.h"
+
+namespace eddy {
+
+glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const HapticOrders& orders,
+                                 const HandAtTick& hand, Seconds dt) {
+    const double gain = orders.gain, scale = orders.tank_from_device.scale;
+    if (law_ == ForceLaw::Filter) return filter_(gain * fluid.force_n, fluid.fluid_period, dt);
+
+    follow(hand, scale);
+    if (fresh) hear(fluid, gain, scale);
+    model_.follow(dt);
+    const glm::dvec3 unexplained_n =
+        fluid.force_n - model_.force_n(fluid.velocity_m_s, fluid.acceleration_m_s2);
+    const glm::dvec3 explained_n = model_.force_n(body_.velocity_m_s(), body_.acceleration_m_s2());
+    const glm::dvec3 damping_n = passivity_.damping_n(hand.velocity_m_s);
+    const glm::dvec3 force_n =
+        filter_(gain * unexplained_n, fluid.fluid_period, dt) + gain * explained_n + damping_n;
+    passivity_.given(force_n, damping_n);
+    report_ = {.drag_ns_m = gain * scale * model_.drag_ns_m(),
+               .added_kg = gain * scale * model_.added_kg(),
+               .explained = model_.explained(),
+               .least_j = passivity_.least_j(),
+               .damped = passivity_.damped()};
+    return force_n;
+}
+
+void HandForce::follow(const HandAtTick& hand, double scale) {
+    if (!hand.known) {
+        body_.forget();
+        passivity_.begin_anew();
+        return;
+    }
+    if (hand.moved_at) body_.take(hand.body_m, *hand.moved_at);
+    passivity_.moved_to(hand.body_m / scale, hand.now);
+}
+
+/// Slopes and energies of the fluid are those of the tank; the handle moves 1 / scale as far, and feels gain times as much.
+void HandForce::hear(const FluidSnapshot& fluid, double gain, double scale) {
+    const double at_handle = gain * scale;
+    const SlopeBounds bounds = at_handle > 0.0 ? SlopeBounds{most_drag_ns_m(fluid.fluid_period) / at_handle,
+                                                             kMostModelledKg / at_handle}
+                                               : SlopeBounds{};
+    model_.learn({fluid.force_n, fluid.velocity_m_s, fluid.acceleration_m_s2}, fluid.fluid_period, bounds);
+    passivity_.received((fluid.received_j - received_j_) * gain / scale, fluid.computed_for);
+    received_j_ = fluid.received_j;
+}
+
+}  // namespace eddy

@@ -1,0 +1,31 @@
+#pragma once
+#include <algorithm>
+
+#include "hal/clock.h"
+
+namespace eddy {
+
+// How steep a force may be that a fluid answers one of its periods late and holds for another. A mass m with that drag
+// B goes v' = v - B T/m v(one period before), which dies away while B < m / T: the faster the fluid, the more it may
+// resist. Its own damping and that of the hand allow a little more; half of m / T is what is used. An added mass that comes as
+// late drives the handle as soon as it is more than the handle's own, however fast the fluid answers (the added-mass limit of
+// partitioned fluid-structure coupling: Causin, Gerbeau, Nobile 2005); again half of that is used.
+
+/// The handle alone, when nobody holds it: the least that moves. A Falcon's was measured at three times as much; a person's
+/// hand and arm add 0.55 kg (van Beek et al. 2015, Scientific Reports 5:18004).
+inline constexpr double kHandleMassKg = 0.15;
+/// What is used of a limit.
+inline constexpr double kStabilityShare = 0.5;
+
+/// Newtons per m/s of the handle.
+inline double most_drag_ns_m(Seconds fluid_period) {
+    constexpr double kSlowest_s = 0.001;  // nothing is gained on the loop's own tick
+    return kStabilityShare * kHandleMassKg / std::max(fluid_period.count(), kSlowest_s);
+}
+/// Newtons per m/s2 of the handle.
+inline constexpr double kMostAddedKg = kStabilityShare * kHandleMassKg;
+/// Of that, what may be rendered from the handle's own acceleration at 1 kHz: the rest of the loop sees it as a mass that comes
+/// with the lag of its filter.
+inline constexpr double kMostModelledKg = 0.3 * kHandleMassKg;
+
+}  // namespace eddy

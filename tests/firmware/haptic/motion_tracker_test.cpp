@@ -1,0 +1,81 @@
+#include "firmware/haptic/motion_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace eddy {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A tracker that has seen so much of a path along x at 1 kHz, and rounded to counts if a count is not 0.
+MotionTracker tracked(const std::function<double(double)>& x_m, int ms, double count_m = 0.0) {
+    MotionTracker tracker;
+    for (int i = 0; i <= ms; ++i) {
+        const double x = x_m(1e-3 * i);
+        tracker.take({count_m > 0.0 ? count_m * std::round(x / count_m) : x, 0.0, 0.0}, milliseconds(i));
+    }
+    return tracker;
+}
+
+TEST(MotionTracker, FollowsASteadyAccelerationWithoutLag) {
+    const MotionTracker tracker = tracked([](double t) { return 0.1 + 0.2 * t + 0.5 * 3.0 * t * t; }, 500);
+    EXPECT_NEAR(tracker.velocity_m_s().x, 0.2 + 3.0 * 0.5, 1e-6);
+    EXPECT_NEAR(tracker.acceleration_m_s2().x, 3.0, 1e-6);
+}
+
+TEST(MotionTracker, GivesTheMotionOfAStirringHandWithinOnePercent) {
+    const double w = 2.0 * std::numbers::pi;  // 1 Hz
+    const MotionTracker tracker = tracked([w](double t) { return 0.02 * std::sin(w * t); }, 2100);
+    EXPECT_NEAR(tracker.velocity_m_s().x, 0.02 * w * std::cos(w * 2.1), 0.01 * 0.02 * w);
+    // Its lag is 3 / (148 1/s) = 20 ms, an eighth of a radian.
+    EXPECT_NEAR(tracker.acceleration_m_s2().x, -0.02 * w * w * std::sin(w * (2.1 - 0.0203)),
+                0.01 * 0.02 * w * w);
+}
+
+TEST(MotionTracker, IsThreeDecibelsDownAtItsFrequency) {
+    const double w = 2.0 * std::numbers::pi * MotionTracker::kTrackerHz;
+    MotionTracker tracker;
+    double most = 0.0;
+    for (int i = 0; i <= 2000; ++i) {
+        tracker.take({std::sin(w * 1e-3 * i) / (w * w), 0.0, 0.0}, milliseconds(i));
+        if (i > 1000) most = std::max(most, std::abs(tracker.acceleration_m_s2().x));
+    }
+    EXPECT_NEAR(most, std::sqrt(0.5), 0.01);
+}
+
+TEST(MotionTracker, EncoderCountsHardlyShowInTheVelocity) {
+    const double count_m = 63.5e-6;  // Falcon spec sheet: 400 dpi
+    double sum = 0.0;
+    MotionTracker tracker;
+    for (int i = 0; i < 3000; ++i) {
+        const double x = 0.05e-3 * i;  // 0.05 m/s
+        tracker.take({count_m * std::round(x / count_m), 0.0, 0.0}, milliseconds(i));
+        if (i >= 1000) sum += std::pow(tracker.velocity_m_s().x - 0.05, 2);
+    }
+    EXPECT_LT(std::sqrt(sum / 2000.0), 2e-3);
+}
+
+TEST(MotionTracker, ALateTickChangesNothing) {
+    MotionTracker every, some;
+    const auto x = [](double t) { return glm::dvec3(0.2 * t + 1.5 * t * t, 0.0, 0.0); };
+    for (int i = 0; i <= 400; ++i) {
+        every.take(x(1e-3 * i), milliseconds(i));
+        if (i % 7 != 3) some.take(x(1e-3 * i), milliseconds(i));
+    }
+    EXPECT_NEAR(every.velocity_m_s().x, some.velocity_m_s().x, 1e-5);
+}
+
+TEST(MotionTracker, AfterAGapItStartsAtRest) {
+    MotionTracker tracker = tracked([](double t) { return 0.3 * t; }, 300);
+    tracker.take({0.5, 0.0, 0.0}, milliseconds(400));
+    EXPECT_EQ(tracker.velocity_m_s(), glm::dvec3(0.0));
+    tracker.take({0.5, 0.0, 0.0}, milliseconds(401));
+    EXPECT_EQ(tracker.velocity_m_s(), glm::dvec3(0.0));
+}
+
+}  // namespace
+}  // namespace eddy
