@@ -80,6 +80,13 @@ void Show::warm_up(const std::vector<Quality>& qualities) {
     for (const auto& [quality, fluid] : fluids_) fluid->reset();
 }
 
+FluidSlopes Show::slopes() {
+    fluid_->reset();
+    const FluidSlopes slopes = measure_slopes(*fluid_, scene_);
+    fluid_->reset();
+    return slopes;
+}
+
 const gles::Fluid& Show::make_ready(const Quality& quality) {
     if (is_ready(quality)) return made(quality);
     gles::Fluid& fluid = made(quality);
@@ -138,7 +145,8 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
         fluid_->step(part.count(), states_, diagnose && n == parts);
         if (!fluid_->bodies().empty()) states_ = fluid_->bodies();  // none if no step could be made of it
         const glm::dvec3 velocity_m_s = held ? states_[*held].velocity_m_s : glm::dvec3(0.0);
-        under_way_[fluid_->steps()] = {.answers = n == parts ? std::optional(pose.time) : std::nullopt,
+        under_way_[fluid_->steps()] = {.answers = n == parts,
+                                       .pose_time = pose.time,
                                        .dt_s = part.count(),
                                        .velocity_m_s = velocity_m_s,
                                        .before_m_s = std::exchange(held_velocity_m_s_, velocity_m_s)};
@@ -174,6 +182,7 @@ void Show::reset() {
     under_way_.clear();
     hand_known_ = false;
     held_velocity_m_s_ = glm::dvec3(0.0);
+    stored_j_ = 0.0;
     ripple_.reset();
     handover_ = {};
 }
@@ -184,6 +193,7 @@ void Show::publish(bool wait) {
         if (result->diagnostics) {
             figures_.divergence_before_1_s = result->diagnostics->divergence_before_1_s;
             figures_.divergence_after_1_s = result->diagnostics->divergence_max_1_s;
+            stored_j_ = result->diagnostics->kinetic_energy_j;
             const glm::dvec3& size_m = scene_.tank.size_m;
             const double mass_kg = scene_.fluid.density_kg_m3 * size_m.x * size_m.y * size_m.z;
             figures_.fluid_speed_m_s = std::sqrt(2.0 * result->diagnostics->kinetic_energy_j / mass_kg);
@@ -196,12 +206,12 @@ void Show::publish(bool wait) {
         // guard force_withheld: the last good force stands, and fades if no other comes (haptic/law.h)
         if (!held || !result->is_sound()) continue;
         gles::Load load = result->loads[*held];
-        if (step.answers) load = handover_.hand_on(load, *step.answers);
+        if (step.answers) load = handover_.hand_on(load, step.pose_time);
         // Over the mean of two steps: what is taken to set the fluid around the body moving comes back when it stops.
         received_j_ -= glm::dot(load.force_n, 0.5 * (step.velocity_m_s + step.before_m_s)) * step.dt_s;
         // Of an update's several steps, the last is the answer.
         if (!step.answers) continue;
-        const Instant computed_for = *step.answers;
+        const Instant computed_for = step.pose_time;
         answer_ = {.force_n = load.force_n,
                    .torque_nm = load.torque_nm,
                    .sequence = answer_.sequence + 1,
@@ -209,7 +219,8 @@ void Show::publish(bool wait) {
                    .fluid_period = Seconds(figures_.fluid_period_s),
                    .velocity_m_s = step.velocity_m_s,
                    .acceleration_m_s2 = (step.velocity_m_s - step.before_m_s) / step.dt_s,
-                   .received_j = received_j_};
+                   .received_j = received_j_,
+                   .stored_j = stored_j_};
         exchange_.fluid.publish(answer_);
         const glm::dvec3 felt_force = load.force_n * scene_.haptics.gain;
         ripple_.add(computed_for, felt_force);

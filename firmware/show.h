@@ -5,6 +5,7 @@
 #include "config/scene.h"
 #include "firmware/body_schedule.h"
 #include "firmware/force_ripple.h"
+#include "firmware/gain_limit.h"
 #include "firmware/haptic/exchange.h"
 #include "firmware/quality/force_handover.h"
 #include "firmware/quality/quality.h"
@@ -38,6 +39,8 @@ class Show {
     /// start: drivers compile a shader when it is first drawn with, which takes seconds on some and must not fall into the
     /// show. Before the show only.
     void warm_up(const std::vector<Quality>& qualities);
+    /// How steeply the fluid answers the hand. Before the show only: goes back to the start.
+    FluidSlopes slopes();
     /// The same for one quality, during the show. Its fluid.
     const gles::Fluid& make_ready(const Quality& quality);
     bool is_ready(const Quality& quality) const { return fluids_.contains(quality); }
@@ -84,10 +87,12 @@ class Show {
     Instant last_{0};
     bool hand_known_ = false;  // the device gave a position for the last step
     FluidSnapshot answer_;     // the last given to the haptic loop
+    double stored_j_ = 0.0;    ///< kinetic energy of the fluid, of the last step that was diagnosed
     double received_j_ = 0.0;  ///< by the fluid from the held body
     /// A step under way, and how the held body went in it.
     struct UnderWay {
-        std::optional<Instant> answers{};  ///< time of the pose, if it is the last step of an update
+        bool answers = false;  ///< the last step of an update: its force is the answer
+        Instant pose_time{0};  ///< of the pose it was given
         double dt_s = 0.0;
         glm::dvec3 velocity_m_s{0.0}, before_m_s{0.0};  ///< in this step, and in the one before
     };

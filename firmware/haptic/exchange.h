@@ -19,8 +19,9 @@ struct FluidSnapshot {
     Seconds fluid_period{0.0};          ///< measured time between fluid updates
     glm::dvec3 velocity_m_s{0.0};       ///< of the body in the step that gave the force, Tank frame
     glm::dvec3 acceleration_m_s2{0.0};  ///< from the step before to that one
-    double received_j =
-        0.0;  ///< by the fluid from the body, in all steps since the start; less than 0: given to it
+    /// Received by the fluid from the body, in all steps since the start; below 0: given to it.
+    double received_j = 0.0;
+    double stored_j = 0.0;  ///< kinetic energy of the fluid when it was last looked at
 };
 
 /// To the fluid: where the virtual body is. Always inside the bounds it was given.

@@ -41,10 +41,11 @@ void HandForce::follow(const HandAtTick& hand, double scale) {
 void HandForce::hear(const FluidSnapshot& fluid, double gain, double scale) {
     const double at_handle = gain * scale;
     const SlopeBounds bounds = at_handle > 0.0 ? SlopeBounds{most_drag_ns_m(fluid.fluid_period) / at_handle,
-                                                             kMostModelledKg / at_handle}
+                                                             kMostAddedKg / at_handle}
                                                : SlopeBounds{};
     model_.learn({fluid.force_n, fluid.velocity_m_s, fluid.acceleration_m_s2}, fluid.fluid_period, bounds);
-    passivity_.received((fluid.received_j - received_j_) * gain / scale, fluid.computed_for);
+    passivity_.received((fluid.received_j - received_j_) * gain / scale, fluid.stored_j * gain / scale,
+                        fluid.computed_for);
     received_j_ = fluid.received_j;
 }
 

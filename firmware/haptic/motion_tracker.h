@@ -12,7 +12,7 @@ namespace eddy {
 class MotionTracker {
   public:
     /// -3 dB of the acceleration, kTrackerHz; its three poles lie at 1 / 0.51 of that.
-    static constexpr double kTrackerHz = 12.0;
+    static constexpr double kTrackerHz = 4.0;
 
     /// The position at a time; one that is not later than the last changes nothing. After a gap of more than 50 ms it starts
     /// anew, at rest.

@@ -21,7 +21,7 @@ void Passivity::moved_to(const glm::dvec3& position_m, Instant now) {
     next_ = (next_ + 1) % kKept;
 }
 
-void Passivity::received(double received_j, Instant pose_time) {
+void Passivity::received(double received_j, double stored_j, Instant pose_time) {
     if (!running_) return;
     // The newest tick that is not after the pose; else the oldest there is.
     Entry then = now_;
@@ -35,16 +35,18 @@ void Passivity::received(double received_j, Instant pose_time) {
         balance_j_ += then.hand_j - settled_.hand_j - received_j + kTolerated * std::abs(received_j);
         balance_j_ = std::min(balance_j_, kReserveJ);
     }
+    stored_j_ = std::isfinite(stored_j) ? std::max(0.0, stored_j) : 0.0;
     settled_ = then;
     answered_ = true;
     least_j_ = std::min(least_j_, energy_j());
 }
 
 glm::dvec3 Passivity::damping_n(const glm::dvec3& velocity_m_s) const {
-    const double debt_j = -energy_j();
+    const double debt_j = -energy_j() - stored_j_;
     const double speed2 = glm::dot(velocity_m_s, velocity_m_s);
     if (!(debt_j > 0.0) || !(speed2 > 0.0) || !answered_) return glm::dvec3(0.0);
-    return -std::min(kMostInjectedNsM, debt_j / (speed2 * kPayBack.count())) * velocity_m_s;
+    const double moves = speed2 / (speed2 + kStillMS * kStillMS);
+    return -moves * std::min(kMostInjectedNsM, debt_j / (speed2 * kPayBack.count())) * velocity_m_s;
 }
 
 void Passivity::given(const glm::dvec3& force_n, const glm::dvec3& damping_n) {

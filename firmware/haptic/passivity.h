@@ -14,7 +14,9 @@ inline constexpr double kMostInjectedNsM = 20.0;
 /// between the fluid and the hand: the frame of delay, the hold, the filter, the local model. On the one side the fluid
 /// keeps books of the work it did on its body: whatever it gives, out of a jet or of flow that was stirred before, stands there.
 /// On the other side is what the hand did against the force it was given. All between may take energy but has none of its own to
-/// give: where the hand did less than the fluid received, the difference is taken out by damping.
+/// give: where the hand did less than the fluid received, the difference is taken out by damping. But as long as there is
+/// flow, its kinetic energy stands for a debt, as in their paper: the force of a stream that shifts comes to the hand a little
+/// late, and that is no reason to brake it.
 class Passivity {
   public:
     /// Differences up to this share of what passes are let pass: forces and paths are known no better.
@@ -25,10 +27,14 @@ class Passivity {
     /// A debt is paid back over this time, not in one tick as in the paper: that would be a tap.
     static constexpr Seconds kPayBack{0.030};
 
+    /// A velocity below this is hardly more than the flicker of an encoder (hand_motion.h), and no energy: damping fades out.
+    static constexpr double kStillMS = 0.02;
+
     /// A tick: where the handle is, before the tick's force is given.
     void moved_to(const glm::dvec3& position_m, Instant now);
-    /// The fluid's answer to the pose of that time: what it has received from its body since the last answer [J of the hand].
-    void received(double received_j, Instant pose_time);
+    /// The fluid's answer to the pose of that time: what it has received from its body since the last answer, and what energy it
+    /// has now [J of the hand].
+    void received(double received_j, double stored_j, Instant pose_time);
     /// The damping force for this tick, at this velocity of the handle.
     glm::dvec3 damping_n(const glm::dvec3& velocity_m_s) const;
     /// The whole force that is given until the next tick, and how much of it is damping.
@@ -58,7 +64,7 @@ class Passivity {
     Entry settled_{};  ///< the tick of the last answer's pose: up to there the two sides were compared
     bool running_ = false, answered_ = false;
     glm::dvec3 position_m_{0.0}, force_n_{0.0}, damping_n_{0.0};
-    double balance_j_ = 0.0, least_j_ = 0.0;
+    double balance_j_ = 0.0, stored_j_ = 0.0, least_j_ = 0.0;
     std::uint64_t damped_ = 0;
 };
 

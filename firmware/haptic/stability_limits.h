@@ -17,15 +17,13 @@ inline constexpr double kHandleMassKg = 0.15;
 /// What is used of a limit.
 inline constexpr double kStabilityShare = 0.5;
 
+/// A fluid that is faster may resist no more: how fast the handle moves is not known much sooner (motion_tracker.h).
+inline constexpr Seconds kShortestPeriod{0.020};
 /// Newtons per m/s of the handle.
 inline double most_drag_ns_m(Seconds fluid_period) {
-    constexpr double kSlowest_s = 0.001;  // nothing is gained on the loop's own tick
-    return kStabilityShare * kHandleMassKg / std::max(fluid_period.count(), kSlowest_s);
+    return kStabilityShare * kHandleMassKg / std::max(fluid_period.count(), kShortestPeriod.count());
 }
 /// Newtons per m/s2 of the handle.
 inline constexpr double kMostAddedKg = kStabilityShare * kHandleMassKg;
-/// Of that, what may be rendered from the handle's own acceleration at 1 kHz: the rest of the loop sees it as a mass that comes
-/// with the lag of its filter.
-inline constexpr double kMostModelledKg = 0.3 * kHandleMassKg;
 
 }  // namespace eddy

@@ -34,6 +34,8 @@ class Plant {
 
     /// Hangs so much on the handle, in place of what hung there: more to move, and its weight pulls down.
     void hang(double mass_kg) { hung_kg_ = mass_kg; }
+    /// From now on nobody holds it.
+    void let_go() { settings_.hand = Hand::None; }
 
     /// Puts the handle, at rest, where the hand wants to be at this time.
     void start(Instant at);

@@ -83,7 +83,7 @@ struct Stirred {
 
 TEST(HandForce, ModelBringsTheForceOfNowWhereTheFilterIsAQuarterBehind) {
     Stirred model(ForceLaw::Model), filter(ForceLaw::Filter);
-    EXPECT_LT(model.error(5), 0.03);
+    EXPECT_LT(model.error(5), 0.1);  // 10 ms: the tracker's
     EXPECT_GT(filter.error(5),
               0.25);  // 20 ms late, half of 20 held, 10 of the step's own, 13 of the filter: 0.33 rad
 }
@@ -103,7 +103,7 @@ TEST(HandForce, ASteadyPullPassesTheModelWhole) {
     EXPECT_LT(model.error(4), 0.02);
     model = Stirred(ForceLaw::Model);
     model.push_n = {0.6, -0.5, 0.0};
-    EXPECT_LT(model.error(6), 0.02);  // stirring in it
+    EXPECT_LT(model.error(6), 0.03);  // stirring in it
 }
 
 TEST(HandForce, WhereNothingIsKnownItIsTheFilterExactly) {

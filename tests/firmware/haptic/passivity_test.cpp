@@ -18,6 +18,7 @@ struct Port {
     std::function<double(double)> force_n;        ///< what the network gives at a time
     std::function<double(double)> fluid_force_n;  ///< what the fluid itself gave
     int period_ms = 50;
+    double stored_j = 0.0;
 
     Passivity passivity{};
     double hand_j = 0.0, fluid_j = 0.0, damping_most_n = 0.0;
@@ -32,7 +33,7 @@ struct Port {
                 double work = 0.0;
                 for (int k = i - 2 * period_ms; k < i - period_ms; ++k)
                     work -= fluid_force_n(1e-3 * k + 5e-4) * (x_m(1e-3 * (k + 1)) - x_m(1e-3 * k));
-                passivity.received(work, milliseconds(i - period_ms));
+                passivity.received(work, stored_j, milliseconds(i - period_ms));
                 if (i > from_ms) fluid_j += work;
             }
             const double damping = passivity.damping_n({v, 0.0, 0.0}).x;
@@ -104,6 +105,18 @@ TEST(Passivity, ANetworkThatDrivesAHandInFluidAtRestIsBraked) {
     EXPECT_NEAR(port.hand_j, 0.0, 0.1 * 0.1 * 0.1);  // a tenth of the 10 mJ it would have given
     EXPECT_GT(port.passivity.damped(), 2000U);
     EXPECT_LT(port.passivity.least_j(), 0.0);
+}
+
+TEST(Passivity, TheEnergyOfTheFlowStandsForADebtOnceAndNoMore) {
+    Port port{.x_m = [](double t) { return 0.05 * t; },
+              .force_n = [](double) { return 0.1; },
+              .fluid_force_n = [](double) { return 0.0; },
+              .stored_j = 4e-3};
+    Port later = port;
+    port.run(700);
+    EXPECT_EQ(port.damping_most_n, 0.0);  // 3.5 mJ so far
+    later.run(4000);
+    EXPECT_NEAR(later.hand_j, -4e-3, 1e-3);  // of 20
 }
 
 TEST(Passivity, AtRestThereIsNothingToDampAndNothingTrembles) {

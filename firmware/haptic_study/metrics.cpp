@@ -1,0 +1,97 @@
+#include "firmware/haptic_study/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+namespace eddy::haptic_study {
+namespace {
+
+constexpr double kTickS = 1e-3;
+constexpr double kLowestHz = 10.0, kHighestHz = 400.0;
+
+std::complex<double> component(Forces forces, int axis, double turns) {
+    const std::complex<double> step =
+        std::polar(1.0, -2.0 * std::numbers::pi * turns / static_cast<double>(forces.size()));
+    std::complex<double> sum = 0.0, phase = 1.0;
+    for (const glm::dvec3& force : forces) {
+        sum += force[axis] * phase;
+        phase *= step;
+    }
+    return sum / static_cast<double>(forces.size());
+}
+
+/// Half of the largest excursion from a straight line through the values.
+template <class Value>
+double half_excursion(std::span<const Felt> ticks, Value value) {
+    const double n = static_cast<double>(ticks.size());
+    double most = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        double mean = 0.0, slope = 0.0;
+        for (std::size_t i = 0; i < ticks.size(); ++i) {
+            mean += value(ticks[i])[axis] / n;
+            slope += (static_cast<double>(i) - 0.5 * (n - 1.0)) * value(ticks[i])[axis];
+        }
+        slope *= 12.0 / (n * (n * n - 1.0));
+        double low = 0.0, high = 0.0;
+        for (std::size_t i = 0; i < ticks.size(); ++i) {
+            const double off =
+                value(ticks[i])[axis] - mean - slope * (static_cast<double>(i) - 0.5 * (n - 1.0));
+            low = std::min(low, off);
+            high = std::max(high, off);
+        }
+        most = std::max(most, 0.5 * (high - low));
+    }
+    return most;
+}
+
+}  // namespace
+
+double rms(Forces forces) {
+    double sum = 0.0;
+    for (const glm::dvec3& force : forces) sum += glm::dot(force, force);
+    return forces.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(forces.size()));
+}
+
+double trembling(Forces forces) {
+    const double seconds = kTickS * static_cast<double>(forces.size());
+    double sum = 0.0;
+    for (double turns = std::ceil(kLowestHz * seconds); turns <= kHighestHz * seconds; ++turns)
+        for (int axis = 0; axis < 3; ++axis) sum += 2.0 * std::norm(component(forces, axis, turns));
+    return std::sqrt(sum);
+}
+
+double lag_s(Forces forces, Forces reference) {
+    const double seconds = kTickS * static_cast<double>(forces.size());
+    const auto turning = [seconds](Forces f) {
+        return component(f, 0, seconds) + std::complex<double>(0.0, 1.0) * component(f, 1, seconds);
+    };
+    return std::arg(turning(reference) / turning(forces)) / (2.0 * std::numbers::pi);
+}
+
+std::optional<double> half_rise_s(Forces forces) {
+    constexpr std::size_t kSettled = 100;
+    if (forces.size() <= kSettled) return std::nullopt;
+    double settled = 0.0;
+    for (const glm::dvec3& force : forces.last(kSettled)) settled += force.x / static_cast<double>(kSettled);
+    for (std::size_t i = 0; i < forces.size(); ++i)
+        if (forces[i].x / settled >= 0.5) return kTickS * static_cast<double>(i);
+    return std::nullopt;
+}
+
+double spent_j(std::span<const Felt> ticks) {
+    double spent = 0.0;
+    for (std::size_t i = 1; i < ticks.size(); ++i)
+        spent -= glm::dot(ticks[i - 1].force_n, ticks[i].position_m - ticks[i - 1].position_m);
+    return spent;
+}
+
+Swing swing(std::span<const Felt> ticks) {
+    if (ticks.size() < 2) return {};
+    return {half_excursion(ticks, [](const Felt& tick) { return tick.force_n; }),
+            half_excursion(ticks, [](const Felt& tick) { return tick.position_m; })};
+}
+
+}  // namespace eddy::haptic_study

@@ -1,0 +1,30 @@
+#pragma once
+#include <optional>
+#include <span>
+
+#include "firmware/haptic_study/rig.h"
+
+namespace eddy::haptic_study {
+
+/// Forces a millisecond apart, over whole seconds.
+using Forces = std::span<const glm::dvec3>;
+
+double rms(Forces forces);
+/// The rms of what lies from 10 to 400 Hz.
+double trembling(Forces forces);
+/// How far the first is behind the second, as the 1 Hz part of both has it, for a hand on a circle in x and y [s].
+double lag_s(Forces forces, Forces reference);
+/// From a start to half of what the force along x is over the last 100 ms [s]; nothing if it never gets there.
+std::optional<double> half_rise_s(Forces forces);
+
+/// What the hand spent on `ticks` and got back, net [J].
+double spent_j(std::span<const Felt> ticks);
+
+/// How much something swings about its own slow course: half its largest excursion in any direction, 1 Hz and faster.
+struct Swing {
+    double force_n = 0.0;
+    double position_m = 0.0;
+};
+Swing swing(std::span<const Felt> ticks);
+
+}  // namespace eddy::haptic_study

@@ -1,0 +1,101 @@
+#include "firmware/haptic_study/trials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/haptic_study/paths.h"
+
+namespace eddy::haptic_study {
+namespace {
+
+/// After the soft start of the force, and when the model has seen most of a turn. [ms]
+constexpr std::size_t kCircleFrom = 1500, kCircleTo = 2500;
+constexpr std::size_t kGoAt = 3200, kGoTo = 3500;
+
+Path circle_path() {
+    return stir_then_go(Seconds(1e-3 * kCircleTo), Seconds(1e-3 * kGoAt), 0.1);
+}
+
+std::vector<glm::dvec3> forces(const Play& play, std::size_t from, std::size_t to) {
+    std::vector<glm::dvec3> all;
+    for (std::size_t i = from; i < std::min(to, play.ticks.size()); ++i) all.push_back(play.ticks[i].force_n);
+    return all;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> reference_forces(StudyFluid& fluid) {
+    Handle handle(Holder::Fixed, circle_path(), Reading::Exact);
+    const Play seen =
+        play(fluid, handle,
+             {.law = ForceLaw::Filter, .rate_hz = 1000.0, .duration = Seconds(1e-3 * (kCircleTo + 5))});
+    std::vector<glm::dvec3> all(kCircleTo, glm::dvec3(0.0));
+    for (const FluidSnapshot& answer : seen.answers) {
+        const auto tick = static_cast<std::size_t>(answer.computed_for / kTick);
+        if (tick < all.size()) all[tick] = answer.force_n;
+    }
+    return all;
+}
+
+CircleFigures circle_figures(StudyFluid& fluid, ForceLaw law, double rate_hz,
+                             const std::vector<glm::dvec3>& reference) {
+    Handle handle(Holder::Fixed, circle_path());
+    const Play tried =
+        play(fluid, handle, {.law = law, .rate_hz = rate_hz, .duration = Seconds(1e-3 * kGoTo)});
+    CircleFigures f{.felt = forces(tried, kCircleFrom, kCircleTo)};
+    std::vector<glm::dvec3> off;
+    for (std::size_t i = 0; i < f.felt.size(); ++i) {
+        f.reference.push_back(tried.orders.gain * reference.at(kCircleFrom + i));
+        off.push_back(f.felt[i] - f.reference[i]);
+    }
+    f.force_n = rms(f.reference);
+    f.roughness = trembling(off) / f.force_n;
+    f.trembling = trembling(f.felt) / rms(f.felt);
+    f.rmse = rms(off) / f.force_n;
+    f.lag_s = lag_s(f.felt, f.reference);
+    f.half_rise_s = half_rise_s(forces(tried, kGoAt, kGoTo));
+    f.report = tried.report.force;
+    f.damped = static_cast<double>(f.report.damped) / static_cast<double>(tried.ticks.size());
+    return f;
+}
+
+StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double stir_hz) {
+    constexpr double kFromS = 2.0, kForS = 2.0;
+    Handle handle(Holder::Fixed, circle(stir_hz));
+    const Play tried =
+        play(fluid, handle, {.law = law, .rate_hz = rate_hz, .duration = Seconds(kFromS + kForS + 0.001)});
+    const auto cycles = static_cast<std::size_t>(std::lround(kForS * stir_hz));
+    const auto length = static_cast<std::size_t>(std::lround(1000.0 / stir_hz));
+    StirFigures f;
+    for (std::size_t n = 0; n < cycles; ++n) {
+        const double cycle_j =
+            spent_j(std::span(tried.ticks)
+                        .subspan(static_cast<std::size_t>(1000.0 * kFromS) + n * length, length + 1));
+        f.least_cycle_j = n == 0 ? cycle_j : std::min(f.least_cycle_j, cycle_j);
+        f.mean_cycle_j += cycle_j / static_cast<double>(cycles);
+    }
+    const auto after = std::find_if(tried.answers.begin(), tried.answers.end(), [](const FluidSnapshot& a) {
+        return Seconds(a.computed_for).count() >= kFromS;
+    });
+    if (after != tried.answers.end()) {
+        const FluidSnapshot &first = *after, &last = tried.answers.back();
+        const double turns = Seconds(last.computed_for - first.computed_for).count() * stir_hz;
+        f.drag_j = (last.received_j - first.received_j) * tried.orders.gain /
+                   tried.orders.tank_from_device.scale / turns;
+    }
+    return f;
+}
+
+Swing swing_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder) {
+    constexpr Seconds kUntil{1.4}, kDuration{3.9};
+    const bool goes = holder == Holder::LetsGo;
+    Handle handle(holder, goes ? circle(1.0) : stir_then_leap(kUntil));
+    const Play tried = play(fluid, handle,
+                            {.law = law,
+                             .rate_hz = rate_hz,
+                             .duration = kDuration,
+                             .let_go = goes ? std::optional(kUntil) : std::nullopt});
+    return swing(std::span(tried.ticks).last(1000));
+}
+
+}  // namespace eddy::haptic_study

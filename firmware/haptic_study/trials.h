@@ -1,0 +1,45 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "firmware/haptic_study/metrics.h"
+#include "firmware/haptic_study/rig.h"
+
+namespace eddy::haptic_study {
+
+// What is tried with one fluid at one rate under one law. Each wants a fluid that has just been made.
+
+/// The hand on a circle of 20 mm once a second, then a rest, then off at 0.1 m/s.
+struct CircleFigures {
+    double roughness =
+        0.0;  ///< of what is felt less the reference, 10 .. 400 Hz, as a share of the reference
+    double trembling = 0.0;               ///< the same of what is felt alone, as a share of itself
+    double rmse = 0.0;                    ///< of what is felt less the reference, as a share of the reference
+    double lag_s = 0.0;                   ///< of the 1 Hz part behind that of the reference
+    std::optional<double> half_rise_s{};  ///< from setting off to half of the force
+    double force_n = 0.0;                 ///< rms of the reference, on the hand
+    double damped = 0.0;                  ///< share of the ticks in which energy was taken out
+    ForceReport report{};
+    std::vector<glm::dvec3> felt{}, reference{};  ///< [N] a millisecond each
+};
+
+/// The force on the body at each millisecond of the circle [N, before gain]: of a fluid that takes a step in every one, knows where
+/// the body really is, and answers at once.
+std::vector<glm::dvec3> reference_forces(StudyFluid& fluid);
+CircleFigures circle_figures(StudyFluid& fluid, ForceLaw law, double rate_hz,
+                             const std::vector<glm::dvec3>& reference);
+
+inline constexpr double kStirsHz[] = {0.5, 1.0, 2.0, 5.0};
+
+/// The hand on the circle at some frequency.
+struct StirFigures {
+    double least_cycle_j = 0.0;  ///< what the cheapest cycle costs the hand
+    double mean_cycle_j = 0.0;
+    double drag_j = 0.0;  ///< what the fluid received in a cycle by its own books
+};
+StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double stir_hz);
+
+/// What swings on a second and a half after the hand has leapt by 20 mm, or has let the handle go at 0.13 m/s.
+Swing swing_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder);
+
+}  // namespace eddy::haptic_study
