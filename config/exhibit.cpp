@@ -32,6 +32,7 @@ void describe(Visitor& v, Exhibit& e) {
     v.value("scene", e.scene, "a shipped scene by name, or the path of a scene file");
     v.value("display", e.display, "where the picture goes");
     v.value("haptics", e.haptics, "which hand moves the held body");
+    v.value("force", e.force, "how the hand gets the force between two answers of the fluid");
     v.value("overlay", e.overlay, "what is written over the picture");
     v.value("presets", e.presets,
             "with more than one, the right and left buttons of the grip step through these solver presets, "

@@ -11,6 +11,7 @@ namespace eddy {
 enum class DisplayChoice { Auto, Kms, Headless };
 enum class HapticsChoice { Auto, Falcon, Emulated, None };
 enum class OverlayChoice { None, Cost };
+enum class ForceChoice { Model, Filter };
 
 inline constexpr Word<DisplayChoice> kDisplayChoices[] = {
     {DisplayChoice::Auto, "auto", "the screen if there is one"},
@@ -29,6 +30,13 @@ inline constexpr Word<OverlayChoice> kOverlayChoices[] = {
      "what accuracy costs: steps a second, ms a stage, error and ripple of the force"},
 };
 
+inline constexpr Word<ForceChoice> kForceChoices[] = {
+    {ForceChoice::Model, "model",
+     "what follows from the hand's own motion at once, from slopes found while it moves; the rest "
+     "low-passed"},
+    {ForceChoice::Filter, "filter", "all of it held and low-passed, as Yang et al. 2009"},
+};
+
 constexpr std::span<const Word<DisplayChoice>> words_of(DisplayChoice) {
     return kDisplayChoices;
 }
@@ -37,6 +45,9 @@ constexpr std::span<const Word<HapticsChoice>> words_of(HapticsChoice) {
 }
 constexpr std::span<const Word<OverlayChoice>> words_of(OverlayChoice) {
     return kOverlayChoices;
+}
+constexpr std::span<const Word<ForceChoice>> words_of(ForceChoice) {
+    return kForceChoices;
 }
 
 /// A Falcon's motor value for a newton metre at the arm is between these: a tenth of what its public sources say, and ten times it.
@@ -57,6 +68,7 @@ struct Exhibit {
     std::string scene = "jet";  ///< as load_scene() takes it
     DisplayChoice display = DisplayChoice::Auto;
     HapticsChoice haptics = HapticsChoice::Auto;
+    ForceChoice force = ForceChoice::Model;
     OverlayChoice overlay = OverlayChoice::None;
     std::vector<SolverPreset> presets{};
     double preset_s = 0.0;

@@ -222,7 +222,7 @@ void Show::publish(bool wait) {
                    .received_j = received_j_,
                    .stored_j = stored_j_};
         exchange_.fluid.publish(answer_);
-        const glm::dvec3 felt_force = load.force_n * scene_.haptics.gain;
+        const glm::dvec3 felt_force = load.force_n * gain_;
         ripple_.add(computed_for, felt_force);
         const double felt = glm::length(felt_force);
         figures_.least_force_n = answer_.sequence == 1 ? felt : std::min(figures_.least_force_n, felt);

@@ -56,6 +56,9 @@ class Show {
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
     void publish(bool wait);
 
+    /// What the hand gets of the force, for the figures: at first the scene's own.
+    void set_gain(double gain) { gain_ = gain; }
+
     /// Fluid and prescribed bodies back to their start; what was under way is forgotten.
     void reset();
 
@@ -83,6 +86,7 @@ class Show {
     gles::Fluid* fluid_;  ///< of quality_
     ForceHandover handover_;
     std::vector<gles::BodyState> states_;
+    double gain_;
     double time_s_ = 0.0;  // of the fluid; falls behind the clock when steps are too slow and dt is capped
     Instant last_{0};
     bool hand_known_ = false;  // the device gave a position for the last step

@@ -16,6 +16,10 @@ struct Status {
     gles::GuardCounts guards;
     LoopReport loop;
     CostFigures cost;
+    struct Gain {
+        double now = 0.0, of_scene = 0.0;
+        long changes = 0;
+    } gain;
 };
 
 /// Replaces the file in one step. A disk that is full or gone must not stop the show: returns false then.

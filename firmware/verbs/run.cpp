@@ -8,6 +8,7 @@
 
 #include "config/scene.h"
 #include "firmware/destination.h"
+#include "firmware/gain_watch.h"
 #include "firmware/graphics.h"
 #include "firmware/hand_orders.h"
 #include "firmware/haptic/loop.h"
@@ -63,6 +64,7 @@ class Run {
         if (!options.record.empty()) recorder_.emplace(options.record);
         stopwatch_.keep_last(kSamples);
         HapticLoopSettings settings;
+        settings.law = exhibit.force == ForceChoice::Filter ? ForceLaw::Filter : ForceLaw::Model;
         settings.gate.max_force_n = std::min(scene.haptics.max_force_n, exhibit.max_force_n);
         if (device_) loop_.emplace(*device_, exchange_, trace_, settings);
         give_orders();
@@ -131,6 +133,7 @@ class Run {
     std::optional<Recorder> recorder_;
     std::filesystem::path status_file_;
     HandOrders orders_{exchange_};
+    GainWatch gain_{scene_.haptics.gain, scene_.haptics.workspace_scale};
     Instant status_due_{0}, frame_due_{0};
     bool recording_failed_ = false;
     double sent_most_n_ = 0.0;
@@ -143,13 +146,19 @@ void Run::give_orders() {
     Quality coarsest = quality_.first();
     for (const Quality& quality : quality_.all())
         if (quality.cells < coarsest.cells) coarsest = quality;
-    orders_.give(orders_for(with_quality(scene_, coarsest), show_.fluid().setup()));
+    HapticOrders orders = orders_for(with_quality(scene_, coarsest), show_.fluid().setup());
+    orders.gain = gain_.gain();
+    show_.set_gain(orders.gain);
+    orders_.give(orders);
 }
 
 void Run::warm_up() {
     const RealClock clock;
     show_.warm_up(quality_.all());
     for (const Quality& quality : quality_.all()) make_ready(quality, Instant(0));
+    if (loop_) gain_.learn(show_.slopes());
+    gain_.see(Seconds(scene_.solver.dt_s));
+    give_orders();
     gles::finish();
     if (const Seconds took = clock.now(); took > kSlowWarmUp)
         fmt::print(stderr, "run: the driver took {:.1f} s to prepare its shaders\n", took.count());
@@ -256,6 +265,9 @@ void Run::drain_trace() {
 
 void Run::report(Instant now, bool force) {
     loop_report_ = exchange_.report.newest();
+    if (loop_ && show_.figures().steps > 0 && gain_.see(Seconds(show_.figures().fluid_period_s)))
+        give_orders();
+    if (const auto news = gain_.news()) fmt::print(stderr, "run: {}\n", *news);
     if (const auto cause = orders_.cause_gone(now, loop_report_)) {
         if (*cause == GateReason::NotFinite) show_.reset();
         orders_.release_latch();
@@ -265,9 +277,16 @@ void Run::report(Instant now, bool force) {
                        fmt::format("{} fluid steps", show_.figures().steps));
     if (status_file_.empty() || (now < status_due_ && !force)) return;
     status_due_ = now + 1s;
-    write_status(status_file_,
-                 {scene_.title, graphics_->gpu.capabilities().renderer, graphics_->display->describe(),
-                  device_name_, Seconds(now).count(), show_.figures(), show_.guards(), loop_report_, cost()});
+    write_status(status_file_, {scene_.title,
+                                graphics_->gpu.capabilities().renderer,
+                                graphics_->display->describe(),
+                                device_name_,
+                                Seconds(now).count(),
+                                show_.figures(),
+                                show_.guards(),
+                                loop_report_,
+                                cost(),
+                                {gain_.gain(), scene_.haptics.gain, gain_.changes()}});
 }
 
 /// Both loops on their own threads and the machine's clock, as a visitor meets them.
