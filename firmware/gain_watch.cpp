@@ -22,10 +22,11 @@ std::optional<std::string> GainWatch::news() {
     if (told_ || gain() >= scene_gain_) return std::nullopt;
     told_ = true;
     return fmt::format(
-        "the gain is held at {:.0f} % of the scene's {}: at {:.0f} answers a second, with all of it, a handle that nobody "
+        "the gain is held at {:.0f} % of the scene's {}: at {:.0f} answers a second, with all of it, a "
+        "handle that nobody "
         "holds would not stay still; it would be a drag of {:.2g} N s/m and an added mass of {:.2g} kg",
-        100.0 * gain() / scene_gain_, scene_gain_, 1.0 / period_.count(), scene_gain_ * scale_ * slopes_.drag_ns_m,
-        scene_gain_ * scale_ * slopes_.added_kg);
+        100.0 * gain() / scene_gain_, scene_gain_, 1.0 / period_.count(),
+        scene_gain_ * scale_ * slopes_.drag_ns_m, scene_gain_ * scale_ * slopes_.added_kg);
 }
 
 }  // namespace eddy

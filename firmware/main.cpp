@@ -27,6 +27,7 @@ struct CommandLine {
     AccuracyOptions accuracy;
     StabilityOptions stability;
     FalconOptions falcon;
+    HapticsOptions haptics;
     CLI::App* calibrate = nullptr;
     std::string check_file, print_scene;
     std::vector<std::string> print_set;
@@ -49,6 +50,7 @@ struct CommandLine {
         add_stability(app, stability);
         add_tune();
         add_falcon();
+        add_haptics();
         auto* check =
             app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
         check->add_option("FILE", check_file, "the file to check")->required();
@@ -245,6 +247,32 @@ struct CommandLine {
             "  eddy accuracy --merge part1 part2 part3 --out sweep    tables and plots of all parts");
     }
 
+    void add_haptics() {
+        auto* verb = app.add_subcommand("haptics",
+                                        "How the force of a fluid that answers 20 to 75 times a second feels "
+                                        "at 1 kHz, by either law: roughness,\n"
+                                        "delay, error, energy, and whether a handle that is held or let go "
+                                        "comes to rest; on virtual time");
+        verb->option_defaults()->take_last();
+        verb->add_option(
+                "--scene", haptics.scenes,
+                "scenes with a body in the hand, as stir,jet [stir,jet,float]; the fluid of a known drag\n"
+                "and added mass is tried in any case")
+            ->delimiter(',')
+            ->take_all();
+        verb->add_option("--grid", haptics.cells, "cells along the longest side of their tanks")
+            ->check(CLI::Range(8, 512))
+            ->capture_default_str();
+        auto* quick = verb->add_flag("--quick", haptics.quick, "only the known fluid (seconds)");
+        quick->excludes(verb->get_option("--scene"))->excludes(verb->get_option("--grid"));
+        verb->add_option("--out", haptics.out, "folder for haptics.csv, report.md and pictures");
+        verb->footer(
+            "  eddy haptics --quick                        the laws alone, in a fluid that is known exactly\n"
+            "  eddy haptics --scene jet --out jet          one scene (some minutes in software)\n"
+            "  eddy haptics --out haptics                  what docs/haptics.md is made of\n"
+            "The law of an exhibit is chosen by force = \"model\" or \"filter\" in its exhibit.toml.");
+    }
+
     /// CLI11 would call an unknown verb a missing one.
     void require_verb(int argc, char** argv) const {
         if (argc < 2 || argv[1][0] == '-') return;
@@ -286,6 +314,7 @@ struct CommandLine {
         if (app.got_subcommand("stability")) return act_on_stability();
         if (app.got_subcommand("tune")) return eddy::tune(tune);
         if (app.got_subcommand("falcon")) return act_on_falcon();
+        if (app.got_subcommand("haptics")) return study_haptics(haptics);
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);
     }

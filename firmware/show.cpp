@@ -63,7 +63,8 @@ Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange, const Q
       motions_(scene),
       quality_(quality),
       fluid_(&made(quality_)),
-      states_(motions_.at(0.0, scene.solver.dt_s)) {}
+      states_(motions_.at(0.0, scene.solver.dt_s)),
+      gain_(scene.haptics.gain) {}
 
 gles::Fluid& Show::made(const Quality& quality) {
     std::unique_ptr<gles::Fluid>& fluid = fluids_[quality];

@@ -36,19 +36,14 @@ void KnownFluid::publish() {
     exchange.fluid.publish(done_);
 }
 
-SceneFluid::SceneFluid(gles::Gpu& gpu, const Scene& scene)
-    : show_(gpu, scene, exchange),
-      gain_(scene.haptics.gain),
-      orders_(orders_for(scene, show_.fluid().setup())),
-      slopes_(show_.slopes()) {}
+SceneFluid::SceneFluid(gles::Gpu& gpu, const Scene& scene, const FluidSlopes& slopes, Seconds period)
+    : show_(gpu, scene, exchange), orders_(orders_for(scene, show_.fluid().setup())) {
+    orders_.gain = std::min(orders_.gain, most_gain(slopes, orders_.tank_from_device.scale, period));
+}
 
 void SceneFluid::update(Instant now, Seconds dt) {
     constexpr long kDiagnoseEvery = 20;  // as eddy run does
     show_.update(now, dt, updates_++ % kDiagnoseEvery == 0);
-}
-
-void SceneFluid::limit_gain(Seconds period) {
-    orders_.gain = std::min(gain_, most_gain(slopes_, orders_.tank_from_device.scale, period));
 }
 
 }  // namespace eddy::haptic_study

@@ -40,26 +40,20 @@ class KnownFluid final : public StudyFluid {
     glm::dvec3 position_m_{0.0}, velocity_m_s_{0.0};
 };
 
-/// The show of a scene; its gain as far as eddy run would let it.
+/// The show of a scene, at its start; its gain as far as eddy run would let it have it if its fluid, which answers so steeply,
+/// answered once in a period.
 class SceneFluid final : public StudyFluid {
   public:
-    SceneFluid(gles::Gpu& gpu, const Scene& scene);
+    SceneFluid(gles::Gpu& gpu, const Scene& scene, const FluidSlopes& slopes, Seconds period);
 
     void update(Instant now, Seconds dt) override;
     void publish() override { show_.publish(true); }
     HapticOrders orders() const override { return orders_; }
-    /// For a fluid that answers so often.
-    void limit_gain(Seconds period);
-    const FluidSlopes& slopes() const { return slopes_; }
-    /// Back to the start.
-    void reset() { show_.reset(); }
 
   private:
     Show show_;
     long updates_ = 0;
-    double gain_;  ///< the scene's own
     HapticOrders orders_;
-    FluidSlopes slopes_;
 };
 
 }  // namespace eddy::haptic_study

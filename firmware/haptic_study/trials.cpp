@@ -55,6 +55,9 @@ CircleFigures circle_figures(StudyFluid& fluid, ForceLaw law, double rate_hz,
     f.lag_s = lag_s(f.felt, f.reference);
     f.half_rise_s = half_rise_s(forces(tried, kGoAt, kGoTo));
     f.report = tried.report.force;
+    for (const FluidSnapshot& answer : tried.answers)
+        f.stored_j =
+            std::max(f.stored_j, answer.stored_j * tried.orders.gain / tried.orders.tank_from_device.scale);
     f.damped = static_cast<double>(f.report.damped) / static_cast<double>(tried.ticks.size());
     return f;
 }
@@ -96,6 +99,24 @@ Swing swing_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder hold
                              .duration = kDuration,
                              .let_go = goes ? std::optional(kUntil) : std::nullopt});
     return swing(std::span(tried.ticks).last(1000));
+}
+
+double pull_share(StudyFluid& fluid, double rate_hz) {
+    constexpr std::size_t kFrom = 3000, kTo = 4000;  // [ms]
+    Handle handle(Holder::Arm, [](Seconds) { return glm::dvec3(0.0); });
+    const Play tried =
+        play(fluid, handle, {.law = ForceLaw::Model, .rate_hz = rate_hz, .duration = Seconds(1e-3 * kTo)});
+    const std::vector<glm::dvec3> felt = forces(tried, kFrom, kTo);
+    glm::dvec3 felt_n(0.0), given_n(0.0);
+    for (const glm::dvec3& force_n : felt) felt_n += force_n / static_cast<double>(felt.size());
+    double count = 0.0;
+    for (const FluidSnapshot& answer : tried.answers) {
+        // What it gives reaches the hand a period later.
+        if (Seconds(answer.computed_for).count() + 1.0 / rate_hz < 1e-3 * kFrom) continue;
+        given_n += tried.orders.gain * answer.force_n;
+        ++count;
+    }
+    return count > 0.0 ? glm::length(felt_n) / glm::length(given_n / count) : 0.0;
 }
 
 }  // namespace eddy::haptic_study

@@ -20,6 +20,7 @@ struct CircleFigures {
     double force_n = 0.0;                 ///< rms of the reference, on the hand
     double damped = 0.0;                  ///< share of the ticks in which energy was taken out
     ForceReport report{};
+    double stored_j = 0.0;  ///< the most kinetic energy the fluid was seen to have, as the hand would feel it
     std::vector<glm::dvec3> felt{}, reference{};  ///< [N] a millisecond each
 };
 
@@ -38,6 +39,9 @@ struct StirFigures {
     double drag_j = 0.0;  ///< what the fluid received in a cycle by its own books
 };
 StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double stir_hz);
+
+/// The mean of what an arm feels over a second in the middle of the tank, as a share of what the fluid gives after gain.
+double pull_share(StudyFluid& fluid, double rate_hz);
 
 /// What swings on a second and a half after the hand has leapt by 20 mm, or has let the handle go at 0.13 m/s.
 Swing swing_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder);

@@ -82,6 +82,14 @@ int fuzz_hands(const StabilityOptions& options);
 /// 1 too if something drifts.
 int run_endlessly(const StabilityOptions& options);
 
+struct HapticsOptions {
+    std::vector<std::string> scenes;  ///< shipped, or files; empty: the three that have a body in the hand
+    int cells = 24;                   ///< along the longest side of their tanks
+    bool quick = false;               ///< no scenes
+    std::string out;                  ///< folder for CSV, report and pictures; empty: none
+};
+int study_haptics(const HapticsOptions& options);
+
 enum class ClockChoice { Real, Stepped };
 
 struct RunOptions {
