@@ -3,6 +3,12 @@
 #include "firmware/haptic/stability_limits.h"
 
 namespace eddy {
+namespace {
+
+/// Of the bandwidth for what the model does not explain, given up where it explains all.
+constexpr double kLaterShare = 0.6;
+
+}  // namespace
 
 glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const HapticOrders& orders,
                                  const HandAtTick& hand, Seconds dt) {
@@ -16,8 +22,9 @@ glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const H
         fluid.force_n - model_.force_n(fluid.velocity_m_s, fluid.acceleration_m_s2);
     const glm::dvec3 explained_n = model_.force_n(body_.velocity_m_s(), body_.acceleration_m_s2());
     const glm::dvec3 damping_n = passivity_.damping_n(hand.velocity_m_s);
-    const glm::dvec3 force_n =
-        filter_(gain * unexplained_n, fluid.fluid_period, dt) + gain * explained_n + damping_n;
+    // The more the model explains, the less of the rest is the hand's: it may come later and smoother.
+    const Seconds smoothed = fluid.fluid_period / (1.0 - kLaterShare * model_.explained());
+    const glm::dvec3 force_n = filter_(gain * unexplained_n, smoothed, dt) + gain * explained_n + damping_n;
     passivity_.given(force_n, damping_n);
     report_ = {.drag_ns_m = gain * scale * model_.drag_ns_m(),
                .added_kg = gain * scale * model_.added_kg(),

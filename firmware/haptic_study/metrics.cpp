@@ -23,22 +23,23 @@ std::complex<double> component(Forces forces, int axis, double turns) {
     return sum / static_cast<double>(forces.size());
 }
 
-/// Half of the largest excursion from a straight line through the values.
+/// Half of the largest excursion from a parabola through the values: a handle that still slows down does not swing.
 template <class Value>
 double half_excursion(std::span<const Felt> ticks, Value value) {
     const double n = static_cast<double>(ticks.size());
+    // Legendre's polynomials over the ticks; their squares have the means 1, 1/3 and 1/5.
+    const auto polynomials = [n](std::size_t i) {
+        const double u = (2.0 * static_cast<double>(i) + 1.0) / n - 1.0;
+        return glm::dvec3(1.0, u, 0.5 * (3.0 * u * u - 1.0));
+    };
     double most = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        double mean = 0.0, slope = 0.0;
-        for (std::size_t i = 0; i < ticks.size(); ++i) {
-            mean += value(ticks[i])[axis] / n;
-            slope += (static_cast<double>(i) - 0.5 * (n - 1.0)) * value(ticks[i])[axis];
-        }
-        slope *= 12.0 / (n * (n * n - 1.0));
+        glm::dvec3 shares(0.0);
+        for (std::size_t i = 0; i < ticks.size(); ++i)
+            shares += value(ticks[i])[axis] / n * glm::dvec3(1.0, 3.0, 5.0) * polynomials(i);
         double low = 0.0, high = 0.0;
         for (std::size_t i = 0; i < ticks.size(); ++i) {
-            const double off =
-                value(ticks[i])[axis] - mean - slope * (static_cast<double>(i) - 0.5 * (n - 1.0));
+            const double off = value(ticks[i])[axis] - glm::dot(shares, polynomials(i));
             low = std::min(low, off);
             high = std::max(high, off);
         }

@@ -20,7 +20,7 @@ std::optional<double> half_rise_s(Forces forces);
 /// What the hand spent on `ticks` and got back, net [J].
 double spent_j(std::span<const Felt> ticks);
 
-/// How much something swings about its own slow course: half its largest excursion in any direction, 1 Hz and faster.
+/// How much something swings about its own slow course, a parabola: half its largest excursion in any direction.
 struct Swing {
     double force_n = 0.0;
     double position_m = 0.0;

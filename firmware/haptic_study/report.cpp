@@ -18,16 +18,17 @@ std::string picture(const std::vector<std::filesystem::path>& pictures, const st
 
 std::string circle_table(const Study& study) {
     std::string text =
-        "| fluid | law | answers/s | force [N] | roughness [%] | trembling [%] | rmse [%] | lag [ms] | half "
+        "| fluid | law | answers/s | force [N] | roughness [%] | trembling [%] | of the reference [%] | rmse "
+        "[%] | lag [ms] | half "
         "of the force "
         "after [ms] | drag, mass in the model | damped [%] "
-        "|\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+        "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const CircleRow& row : study.circles) {
         const CircleFigures& f = row.figures;
         text += fmt::format(
-            "| {} | {} | {:.0f} | {:.3f} | {:.2f} | {:.2f} | {:.1f} | {:.1f} | {} | {} | {:.1f} |\n",
+            "| {} | {} | {:.0f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:.1f} | {} | {} | {:.1f} |\n",
             row.fluid, to_string(row.law), row.rate_hz, f.force_n, 100.0 * f.roughness, 100.0 * f.trembling,
-            100.0 * f.rmse, 1e3 * f.lag_s, ms_of(f.half_rise_s),
+            100.0 * f.reference_trembling, 100.0 * f.rmse, 1e3 * f.lag_s, ms_of(f.half_rise_s),
             row.law == ForceLaw::Model
                 ? fmt::format("{:.2f} N s/m, {:.3f} kg", f.report.drag_ns_m, f.report.added_kg)
                 : "",
@@ -168,6 +169,7 @@ std::string csv_of(const Study& study) {
         circle("force_n", r.figures.force_n);
         circle("roughness", r.figures.roughness);
         circle("trembling", r.figures.trembling);
+        circle("reference_trembling", r.figures.reference_trembling);
         circle("rmse", r.figures.rmse);
         circle("lag_s", r.figures.lag_s);
         if (r.figures.half_rise_s) circle("half_rise_s", *r.figures.half_rise_s);

@@ -51,6 +51,7 @@ CircleFigures circle_figures(StudyFluid& fluid, ForceLaw law, double rate_hz,
     f.force_n = rms(f.reference);
     f.roughness = trembling(off) / f.force_n;
     f.trembling = trembling(f.felt) / rms(f.felt);
+    f.reference_trembling = trembling(f.reference) / f.force_n;
     f.rmse = rms(off) / f.force_n;
     f.lag_s = lag_s(f.felt, f.reference);
     f.half_rise_s = half_rise_s(forces(tried, kGoAt, kGoTo));

@@ -14,6 +14,7 @@ struct CircleFigures {
     double roughness =
         0.0;  ///< of what is felt less the reference, 10 .. 400 Hz, as a share of the reference
     double trembling = 0.0;               ///< the same of what is felt alone, as a share of itself
+    double reference_trembling = 0.0;     ///< and of the reference alone
     double rmse = 0.0;                    ///< of what is felt less the reference, as a share of the reference
     double lag_s = 0.0;                   ///< of the 1 Hz part behind that of the reference
     std::optional<double> half_rise_s{};  ///< from setting off to half of the force
