@@ -24,6 +24,7 @@ const std::vector<Verb> kVerbs{
       "--merge", "--out"}},
     {"tune", {"SCENE", "--scene", "--set", "--state-dir", "--show"}},
     {"falcon", {"--firmware", "--serial", "--seconds", "calibrate"}},
+    {"haptics", {"--scene", "--grid", "--quick", "--out"}},
     {"check-config", {"FILE"}},
     {"print-config", {"SCENE", "--set", "--origin"}},
 };
