@@ -254,10 +254,9 @@ struct CommandLine {
                                         "delay, error, energy, and whether a handle that is held or let go "
                                         "comes to rest; on virtual time");
         verb->option_defaults()->take_last();
-        verb->add_option(
-                "--scene", haptics.scenes,
-                "scenes with a body in the hand, as stir,jet [stir,jet,float]; the fluid of a known drag\n"
-                "and added mass is tried in any case")
+        verb->add_option("--scene", haptics.scenes,
+                         "scenes with a body in the hand, as float [stir,jet]; the fluid of a known drag\n"
+                         "and added mass is tried in any case")
             ->delimiter(',')
             ->take_all();
         verb->add_option("--grid", haptics.cells, "cells along the longest side of their tanks")
@@ -268,7 +267,8 @@ struct CommandLine {
         verb->add_option("--out", haptics.out, "folder for haptics.csv, report.md and pictures");
         verb->footer(
             "  eddy haptics --quick                        the laws alone, in a fluid that is known exactly\n"
-            "  eddy haptics --scene jet --out jet          one scene (some minutes in software)\n"
+            "  eddy haptics --scene jet --out jet          one scene (minutes in software; with free bodies, "
+            "far more)\n"
             "  eddy haptics --out haptics                  what docs/haptics.md is made of\n"
             "The law of an exhibit is chosen by force = \"model\" or \"filter\" in its exhibit.toml.");
     }

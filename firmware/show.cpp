@@ -204,8 +204,9 @@ void Show::publish(bool wait) {
         under_way_.erase(under_way_.begin(), under_way_.upper_bound(result->step));
         figures_.fastest_m_s = result->health.fastest_m_s;
         const auto held = motions_.held();
+        if (!held) continue;
         // guard force_withheld: the last good force stands, and fades if no other comes (haptic/law.h)
-        if (!held || !result->is_sound()) continue;
+        if (!result->is_sound()) continue;
         gles::Load load = result->loads[*held];
         if (step.answers) load = handover_.hand_on(load, step.pose_time);
         // Over the mean of two steps: what is taken to set the fluid around the body moving comes back when it stops.

@@ -81,6 +81,21 @@ Goal energy(const Study& study) {
             driven == 0};
 }
 
+Goal dearness(const Study& study) {
+    double worst = 1.0, at_hz = 0.0, steadiest = 1.0;
+    for (const StirRow& row : study.stirs) {
+        if (row.law != ForceLaw::Model || !(row.figures.drag_j > 0.0)) continue;
+        const double ratio = row.figures.mean_cycle_j / row.figures.drag_j;
+        if (row.stir_hz <= 1.0) steadiest = std::max(steadiest, ratio);
+        if (ratio <= worst) continue;
+        worst = ratio;
+        at_hz = row.stir_hz;
+    }
+    return {"and at most a fifth more than the fluid receives, at 0.5 to 5 Hz",
+            fmt::format("{:.2f} of it at the most, at {:g} Hz; up to 1 Hz {:.2f}", worst, at_hz, steadiest),
+            worst <= 1.2};
+}
+
 Goal debt(const Study& study) {
     int all = 0, beyond = 0;
     double most = 0.0;
@@ -129,6 +144,7 @@ std::vector<Goal> goals_of(const Study& study) {
     goals.push_back(latency(study));
     goals.push_back(closeness(study));
     goals.push_back(energy(study));
+    goals.push_back(dearness(study));
     if (scenes) goals.push_back(debt(study));
     goals.push_back(pull(study));
     goals.push_back(rest(study, true));

@@ -46,7 +46,7 @@ GnuplotPicture force_picture(const Study& study, const std::filesystem::path& fo
     return {folder / "force.png", 1100, 380 * static_cast<int>(shown),
             fmt::format(
                 "{}set multiplot layout {},2\nset xlabel 'time [ms]'\nset ylabel 'force to the right [N]'\n"
-                "set key top right\n{}unset multiplot\n",
+                "set key outside bottom center horizontal\n{}unset multiplot\n",
                 data, shown, plots)};
 }
 
@@ -57,8 +57,9 @@ GnuplotPicture quality_picture(const Study& study, const std::filesystem::path& 
     struct Panel {
         const char *title, *extra;
     };
-    const Panel panels[] = {
-        {"roughness [%]", "set logscale y\n"}, {"rmse [%]", "unset logscale y\n"}, {"lag [ms]", ""}};
+    const Panel panels[] = {{"roughness [%]", "set logscale y\nset yrange [0.03:100]\n"},
+                            {"rmse [%]", "unset logscale y\nset yrange [0:*]\n"},
+                            {"lag [ms]", ""}};
     std::string plots[3];
     for (std::size_t f = 0; f < names.size(); ++f)
         for (const ForceLaw law : kLaws) {

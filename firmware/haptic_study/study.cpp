@@ -68,6 +68,7 @@ class SceneStudy {
     }
 
     void circles() {
+        done_(0.0, "the fluid at 1 kHz");
         const std::vector<glm::dvec3> reference = reference_forces(*at(1000.0));
         done_(2.5 * 1000.0, "the fluid at 1 kHz");
         for (const double rate_hz : kRatesHz)
@@ -91,7 +92,7 @@ class SceneStudy {
             for (const Holder holder : {Holder::Fixed, Holder::Arm, Holder::StiffArm, Holder::LetsGo}) {
                 study_.swings.push_back({name_, ForceLaw::Model, rate_hz, holder,
                                          swing_figures(*at(rate_hz), ForceLaw::Model, rate_hz, holder)});
-                done_(3.9 * rate_hz, "whether the handle comes to rest");
+                done_((holder == Holder::LetsGo ? 7.0 : 3.9) * rate_hz, "whether the handle comes to rest");
             }
     }
     void pulls() {
@@ -101,7 +102,7 @@ class SceneStudy {
         }
     }
     static constexpr double kCircles = 2500.0 + 7.0 * 175.0, kStirs = 4.0 * 70.0 * 8.0,
-                            kSwings = 4.0 * 3.9 * 175.0, kPulls = 4.0 * 175.0;  ///< steps
+                            kSwings = (3.0 * 3.9 + 7.0) * 175.0, kPulls = 4.0 * 175.0;  ///< steps
 
   private:
     std::unique_ptr<SceneFluid> at(double rate_hz) const {

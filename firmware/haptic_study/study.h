@@ -9,8 +9,8 @@ namespace eddy::haptic_study {
 
 /// What is to be tried.
 struct StudyOrder {
-    std::vector<std::string> scenes{"stir", "jet", "float"};  ///< shipped, or files; with a body in the hand
-    int cells = 24;                                           ///< along the longest side of their tanks
+    std::vector<std::string> scenes{"stir", "jet"};  ///< shipped, or files; with a body in the hand
+    int cells = 24;                                  ///< along the longest side of their tanks
 };
 
 inline constexpr double kRatesHz[] = {20.0, 30.0, 50.0, 75.0};

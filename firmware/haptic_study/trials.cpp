@@ -91,13 +91,15 @@ StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double
 }
 
 Swing swing_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder) {
-    constexpr Seconds kUntil{1.4}, kDuration{3.9};
+    constexpr Seconds kUntil{1.4};
     const bool goes = holder == Holder::LetsGo;
+    // Time to be carried to a wall by whatever flows.
+    const Seconds duration(goes ? 7.0 : 3.9);
     Handle handle(holder, goes ? circle(1.0) : stir_then_leap(kUntil));
     const Play tried = play(fluid, handle,
                             {.law = law,
                              .rate_hz = rate_hz,
-                             .duration = kDuration,
+                             .duration = duration,
                              .let_go = goes ? std::optional(kUntil) : std::nullopt});
     return swing(std::span(tried.ticks).last(1000));
 }

@@ -44,7 +44,8 @@ StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double
 /// The mean of what an arm feels over a second in the middle of the tank, as a share of what the fluid gives after gain.
 double pull_share(StudyFluid& fluid, double rate_hz);
 
-/// What swings on a second and a half after the hand has leapt by 20 mm, or has let the handle go at 0.13 m/s.
+/// What swings on, in a second that begins a second and a half after the hand has leapt by 20 mm, or 4.6 s after it has let the handle go
+/// at 0.13 m/s.
 Swing swing_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder);
 
 }  // namespace eddy::haptic_study

@@ -83,7 +83,7 @@ int fuzz_hands(const StabilityOptions& options);
 int run_endlessly(const StabilityOptions& options);
 
 struct HapticsOptions {
-    std::vector<std::string> scenes;  ///< shipped, or files; empty: the three that have a body in the hand
+    std::vector<std::string> scenes;  ///< shipped, or files; empty: stir and jet
     int cells = 24;                   ///< along the longest side of their tanks
     bool quick = false;               ///< no scenes
     std::string out;                  ///< folder for CSV, report and pictures; empty: none
