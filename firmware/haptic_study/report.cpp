@@ -138,7 +138,8 @@ What a cycle on the circle costs the hand, and what the fluid received in one by
 What still swings, as half of the largest excursion in the last second: the hand leaps by 20 mm, held by an arm (0.554 kg, 6.45 N s/m,
 135 N/m, with the handle), by one three times as stiff and damped, or lets the handle (0.15 kg, 0.5 N s/m) go at 0.13 m/s, which
 a jet carries to a soft wall at the bounds of the tank. The known
-fluid is here as steep as the gain is limited to. `fixed`: the handle cannot move, so what swings is the flow itself.
+fluid is here as steep as the gain is limited to. `fixed`: the handle cannot move, so what swings is the flow itself. In a jet
+a handle that nobody holds goes on drifting with the flow, and that counts here as well.
 
 {}
 ## How strong the force may be

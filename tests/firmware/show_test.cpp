@@ -95,6 +95,46 @@ TEST_F(ShowTest, FluidResistsAHandThatSetsOff) {
     EXPECT_LT(std::abs(force.y), 0.02e-3);
 }
 
+TEST_F(ShowTest, AnAnswerComesWithTheMotionItBelongsToAndTheFluidKeepsBooks) {
+    Show show(gpu, scene_with(""), exchange);
+    const double way_m[] = {0.0, 0.004, 0.008, 0.008, 0.008};  // off at 0.2 m/s, and to rest again
+    double received_j = 0.0, most_j = 0.0;
+    glm::dvec3 before(0.0);
+    for (int n = 1; n <= 5; ++n) {
+        hand_at({0.076 + way_m[n - 1], 0.08, 0.08}, n * 20ms);
+        show.update(n * 20ms, kDt, false);
+        show.publish(true);
+        const FluidSnapshot answer = exchange.fluid.newest();
+        const double v = n == 1 ? 0.0 : (way_m[n - 1] - way_m[n - 2]) / 0.02;
+        EXPECT_NEAR(answer.velocity_m_s.x, v, 1e-9) << n;
+        EXPECT_NEAR(answer.acceleration_m_s2.x, (v - before.x) / 0.02, 1e-6) << n;
+        received_j -= answer.force_n.x * 0.5 * (v + before.x) * 0.02;
+        EXPECT_NEAR(answer.received_j, received_j, 1e-6 * std::abs(received_j) + 1e-15) << n;
+        most_j = std::max(most_j, received_j);
+        before.x = v;
+    }
+    // What it took to set the air moving, 1/2 m v2 of half the air displaced, comes back in part when the ball stops.
+    EXPECT_GT(most_j, 0.5 * 0.5 * 0.5 * 1.2 * 65.4e-6 * 0.04);
+    EXPECT_LT(received_j, 0.8 * most_j);
+    EXPECT_GT(received_j, 0.0);
+}
+
+TEST_F(ShowTest, MeasuringHowSteeplyTheFluidAnswersLeavesItAtItsStart) {
+    Show once(gpu, scene_with(""), exchange), measured(gpu, scene_with(""), exchange);
+    EXPECT_GT(measured.slopes().added_kg, 0.0);
+    glm::dvec3 forces[2];
+    for (Show* show : {&once, &measured}) {
+        for (int n = 1; n <= 3; ++n) {
+            hand_at({0.08 + 0.001 * n, 0.08, 0.08}, n * 20ms);
+            show->update(n * 20ms, kDt, false);
+            show->publish(true);
+        }
+        forces[show == &once ? 0 : 1] = exchange.fluid.newest().force_n;
+    }
+    EXPECT_EQ(forces[0], forces[1]);
+    EXPECT_NE(forces[0], glm::dvec3(0.0));
+}
+
 TEST_F(ShowTest, AfterAStallTheBodyIsPlacedWhereTheHandIsAtRest) {
     Show show(gpu, scene_with(""), exchange);
     for (int n = 1; n <= 3; ++n) {
