@@ -73,6 +73,12 @@ TEST_F(ExhibitFolder, UnknownSceneNamesTheNearest) {
                            "first: \"stir\"")));
 }
 
+TEST_F(ExhibitFolder, TheForceIsModelledUnlessTheFilterIsAskedFor) {
+    EXPECT_EQ(load_exhibit(folder_).exhibit.force, ForceChoice::Model);
+    write("exhibit.toml", "force = \"filter\"\n");
+    EXPECT_EQ(load_exhibit(folder_).exhibit.force, ForceChoice::Filter);
+}
+
 TEST_F(ExhibitFolder, FoldersMustBeAbsolute) {
     const std::string file = write("exhibit.toml", "state_dir = \"state\"\n");
     EXPECT_THAT(complaints([&] { load_exhibit_file(file); }),
