@@ -11,7 +11,8 @@ namespace eddy {
 /// without any lag, and rounds off what is quicker than kTrackerHz.
 class MotionTracker {
   public:
-    /// -3 dB of the acceleration, kTrackerHz; its three poles lie at 1 / 0.51 of that.
+    /// -3 dB of the acceleration; the three poles lie at 1 / 0.51 of that. Lower is smoother and later: as eddy haptics --quick
+    /// has it, encoder counts make the force on a stirring hand tremble by 0.45 % and it is 12 ms late; at 6 Hz 1.0 %, 6 ms.
     static constexpr double kTrackerHz = 4.0;
 
     /// The position at a time; one that is not later than the last changes nothing. After a gap of more than 50 ms it starts

@@ -11,8 +11,9 @@ namespace eddy {
 // late drives the handle as soon as it is more than the handle's own, however fast the fluid answers (the added-mass limit of
 // partitioned fluid-structure coupling: Causin, Gerbeau, Nobile 2005); again half of that is used.
 
-/// The handle alone, when nobody holds it: the least that moves. A Falcon's was measured at three times as much; a person's
-/// hand and arm add 0.55 kg (van Beek et al. 2015, Scientific Reports 5:18004).
+/// The handle alone, when nobody holds it: the least that moves, assumed on the safe side. One student measured three times as
+/// much on a Falcon (hal/haptic/emulated/plant.h); a person's hand and arm add 0.55 kg (van Beek et al. 2015, Scientific
+/// Reports 5:18004).
 inline constexpr double kHandleMassKg = 0.15;
 /// What is used of a limit.
 inline constexpr double kStabilityShare = 0.5;
