@@ -34,7 +34,8 @@ struct Moment {
     double time_s = 0.0;       ///< at its beginning
     double calm_from_s = 0.0;  ///< when what disturbs has to end
     const Scene* scene = nullptr;
-    bool disturbs() const { return time_s < calm_from_s; }
+    /// Times are sums of steps: what they lack in rounding is not a step.
+    bool disturbs() const { return time_s + 1e-9 < calm_from_s; }
     glm::dvec3 middle_m() const { return 0.5 * scene->tank.size_m; }
     double cell_m() const { return scene->tank.cell_m(); }
 

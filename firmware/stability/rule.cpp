@@ -104,13 +104,13 @@ void Rule::see_calm(const StepSeen& step) {
     if (step.disturbed || step.pardoned) {
         peak_force_n_ = std::max(peak_force_n_, force_n_);
         calm_ = false;
+        calm_since_s_ = step.time_s;
         force_calm_s_.reset();
         energy_calm_s_.reset();
         return;
     }
     if (!calm_) {
         calm_ = true;
-        calm_since_s_ = step.time_s;
         calm_energy_j_ = energy_j_;
     }
     if (force_n_ > kCalmForce * peak_force_n_)

@@ -211,7 +211,7 @@ TEST(Rule, SaysWhenItWasCalm) {
     rule.see(
         {.step = 4, .time_s = 4.0, .fields = &slow, .loads = {{{0.0, 0.0, 0.0}, {}}}, .disturbed = false});
     ASSERT_TRUE(rule.verdict().recovery_s);
-    EXPECT_DOUBLE_EQ(*rule.verdict().recovery_s, 2.0);
+    EXPECT_DOUBLE_EQ(*rule.verdict().recovery_s, 3.0) << "from the end of the last step that disturbed";
 }
 
 TEST(Rule, CountsAPardonedFaultButDoesNotJudgeIt) {

@@ -160,6 +160,17 @@ TEST_F(TrialTest, NewExtremesOfTransportWouldBeSeen) {
     EXPECT_NEAR(step_after(-1.0f, -1.5f), 0.5, 1e-6);
 }
 
+TEST_F(TrialTest, WaitsLongEnoughForTheCalm) {
+    // Nobody says so, but the ball goes on for ever.
+    const Outcome outcome = outcome_of({.name = "restless", .drive = Drive::Steps, .bodies =
+                                            [](const Moment& m, std::vector<gles::BodyState>& bodies) {
+                                                bodies[0].velocity_m_s.x = std::cos(6.0 * m.time_s);
+                                            }},
+                                       500);
+    EXPECT_FALSE(outcome.verdict.pass);
+    EXPECT_THAT(outcome.verdict.reason, HasSubstr("5 s after the last disturbance the force is"));
+}
+
 // For 1000 of its 10 000 steps, and not with second order in time: docs/stability.md says what becomes of those.
 TEST_F(TrialTest, WithoutFrictionAndForcingTransportMakesNoEnergyForALongTime) {
     for (const char* name : {"inviscid-first-order", "inviscid-maccormack"}) {
