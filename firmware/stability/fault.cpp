@@ -2,19 +2,29 @@
 
 #include <algorithm>
 #include <random>
+#include <stdexcept>
 
 namespace eddy::stability {
 namespace {
 
 using gles::AtlasLayout;
 
+/// A fluid shows nobody its state but another fluid.
+struct Inside : gles::Fluid {
+    using gles::Fluid::state;
+};
+gles::FluidState state_of(const gles::Fluid& fluid) {
+    return (fluid.*(&Inside::state))();
+}
+
 /// Of the layout that a place is stored in.
-AtlasLayout layout_of(Fault::Place place, const glm::ivec3& cells) {
+AtlasLayout layout_of(const gles::Fluid& fluid, Fault::Place place) {
+    const glm::ivec3& cells = fluid.setup().cells;
     switch (place) {
         case Fault::Place::Velocity:
-            return gles::Faces::layout(cells);
+            return state_of(fluid).on_faces ? gles::Faces::layout(cells) : gles::Cells::layout(cells);
         case Fault::Place::Pressure:
-            return gles::Cells4::layout(cells);
+            return state_of(fluid).phi4 ? gles::Cells4::layout(cells) : gles::Cells::layout(cells);
         case Fault::Place::Fractions:
             return gles::Faces4::layout(cells);
         case Fault::Place::Smoke:
@@ -22,6 +32,21 @@ AtlasLayout layout_of(Fault::Place place, const glm::ivec3& cells) {
             break;
     }
     return gles::Cells::layout(cells);
+}
+
+bool has(const gles::Fluid& fluid, Fault::Place place) {
+    switch (place) {
+        case Fault::Place::Velocity:
+        case Fault::Place::Pressure:
+            break;
+        case Fault::Place::Smoke:
+            return fluid.smoke() != nullptr;
+        case Fault::Place::Temperature:
+            return fluid.temperature() != nullptr;
+        case Fault::Place::Fractions:
+            return !fluid.setup().bodies.empty();
+    }
+    return true;
 }
 
 /// GL's textures are told apart by what may write them; a fault may.
@@ -52,42 +77,63 @@ Faults::~Faults() {
     gpu_.record(nullptr);
 }
 
-void Faults::begin_step() {
+void Faults::begin_step(const gles::Fluid& fluid) {
+    fractions_ = fractions_of(fluid);
     passes_.clear();
 }
 
-std::vector<gles::Texture*> Faults::textures_of(const gles::Fluid& fluid, Fault::Place place) const {
-    if (place == Fault::Place::Smoke)
-        return fluid.smoke() ? std::vector{writable(&fluid.smoke()->texture())}
-                             : std::vector<gles::Texture*>();
-    if (place == Fault::Place::Temperature)
-        return fluid.temperature() ? std::vector{writable(&fluid.temperature()->texture())}
-                                   : std::vector<gles::Texture*>();
-    // The last that a step drew is what lives on to the next.
-    const auto is_of = [&](const gles::PassRecord& pass) {
-        const bool stage = place == Fault::Place::Velocity ? pass.stage == "project"
-                           : place == Fault::Place::Pressure
-                               ? pass.stage == "pressure" || pass.stage == "coupling"
-                               : pass.stage == "voxelise";
-        return stage && !pass.outputs.empty() &&
-               pass.outputs[0]->size() == layout_of(place, fluid.setup().cells).texels();
-    };
-    const auto last = std::find_if(passes_.rbegin(), passes_.rend(), is_of);
+std::vector<gles::Texture*> Faults::fractions_of(const gles::Fluid& fluid) const {
+    // The last of the finest grid that a step drew is what lives on to the next.
+    const glm::ivec2 texels = layout_of(fluid, Fault::Place::Fractions).texels();
+    const auto last = std::find_if(passes_.rbegin(), passes_.rend(), [&](const gles::PassRecord& pass) {
+        return pass.stage == "voxelise" && !pass.outputs.empty() && pass.outputs[0]->size() == texels;
+    });
+    if (last == passes_.rend()) return fractions_;
     std::vector<gles::Texture*> textures;
-    if (last != passes_.rend())
-        for (const gles::Texture* texture : last->outputs) textures.push_back(writable(texture));
+    for (const gles::Texture* texture : last->outputs) textures.push_back(writable(texture));
+    return textures;
+}
+
+std::vector<gles::Texture*> Faults::textures_of(const gles::Fluid& fluid, Fault::Place place) const {
+    if (place == Fault::Place::Fractions) return fractions_of(fluid);
+    const gles::FluidState state = state_of(fluid);
+    std::vector<gles::Texture*> textures;
+    const auto add = [&](const auto* field) {
+        if (field && *field) textures.push_back(writable(&field->texture()));
+    };
+    switch (place) {
+        case Fault::Place::Velocity:
+            add(state.on_faces);
+            add(state.at_centres);
+            break;
+        case Fault::Place::Pressure:
+            add(state.phi4);
+            add(state.phi);
+            break;
+        case Fault::Place::Smoke:
+            add(state.smoke);
+            break;
+        case Fault::Place::Temperature:
+            add(state.temperature);
+            break;
+        case Fault::Place::Fractions:
+            break;
+    }
     return textures;
 }
 
 void Faults::put(const gles::Fluid& fluid, const Fault& fault) {
+    if (!has(fluid, fault.place)) return;
+    const std::vector<gles::Texture*> textures = textures_of(fluid, fault.place);
+    if (textures.empty()) throw std::logic_error("a fault hits nothing");
     const glm::ivec3 n = fluid.setup().cells;
-    const AtlasLayout layout = layout_of(fault.place, n);
+    const AtlasLayout layout = layout_of(fluid, fault.place);
     // Fractions are drawn anew around bodies; what counts is a place where they are not.
     const glm::ivec3 cell(fault.place == Fault::Place::Fractions ? 1 : n.x / 4, n.y / 2, n.z / 2);
-    const bool packed = fault.place == Fault::Place::Pressure || fault.place == Fault::Place::Fractions;
+    const bool packed = layout.size.z < n.z;  // four cells a texel
     std::mt19937 random(1);
     std::uniform_real_distribution<float> garbage(-fault.value, fault.value);
-    for (gles::Texture* texture : textures_of(fluid, fault.place)) {
+    for (gles::Texture* texture : textures) {
         std::vector<float> values = content_of(*texture);
         const auto channels = static_cast<std::size_t>(channels_of(texture->format()));
         const auto width = static_cast<std::size_t>(texture->size().x);

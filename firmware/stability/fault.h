@@ -19,7 +19,8 @@ struct Fault {
     } extent = Extent::Texel;
 };
 
-/// Knows which textures the last step wrote, by watching its passes go by, and writes into them.
+/// Writes into what lives in a fluid from step to step; and into the shares of its solids, which it knows by watching the passes
+/// of steps go by.
 class Faults {
   public:
     explicit Faults(gles::Gpu& gpu);
@@ -27,16 +28,20 @@ class Faults {
     Faults(const Faults&) = delete;
     Faults& operator=(const Faults&) = delete;
 
-    /// A step is about to be taken; those before it are forgotten.
-    void begin_step();
-    /// Between two steps. What the scene does not have is left alone.
+    /// A step is about to be taken.
+    void begin_step(const gles::Fluid& fluid);
+    /// Between two steps. What the scene does not have, smoke, heat or solids, is left alone; a fault that misses what the fluid
+    /// has is a std::logic_error.
     void put(const gles::Fluid& fluid, const Fault& fault);
 
   private:
+    std::vector<gles::Texture*> fractions_of(const gles::Fluid& fluid) const;
     std::vector<gles::Texture*> textures_of(const gles::Fluid& fluid, Fault::Place place) const;
 
     gles::Gpu& gpu_;
-    std::vector<gles::PassRecord> passes_;
+    std::vector<gles::PassRecord> passes_;  ///< since the last step began
+    std::vector<gles::Texture*>
+        fractions_;  ///< of the last step before it that drew them: one that is refused draws nothing
 };
 
 }  // namespace eddy::stability

@@ -161,7 +161,7 @@ void Run::prepare(const Moment& moment) {
         ++resets_;
     }
     if (moment.change_preset) rig_->change_preset();
-    if (faults_) faults_->begin_step();
+    if (faults_) faults_->begin_step(rig_->fluid());
 }
 
 void Run::judge_transport() {

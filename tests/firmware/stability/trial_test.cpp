@@ -67,7 +67,7 @@ TEST_F(TrialTest, FaultsReachTheFieldsTheyAreMeantFor) {
     for (const Place place : {Place::Velocity, Place::Pressure, Place::Smoke, Place::Fractions}) {
         const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, setup);
         Faults faults(gpu);
-        faults.begin_step();
+        faults.begin_step(*fluid);
         fluid->step(0.02, {{.centre_m = glm::dvec3(0.02)}}, false);
         fluid->wait_result();
         EXPECT_EQ(non_finite_texels(download(*fluid)), 0);
@@ -76,6 +76,37 @@ TEST_F(TrialTest, FaultsReachTheFieldsTheyAreMeantFor) {
         const long found = place == Place::Fractions ? 0 : place == Place::Pressure ? 4 : 1;
         EXPECT_EQ(non_finite_texels(download(*fluid)), found) << static_cast<int>(place);
     }
+}
+
+TEST_F(TrialTest, AFaultInThePressureOfAThickFluidWithAFreeBodyIsOne) {
+    gles::FluidSetup setup;
+    setup.cells = glm::ivec3(8);
+    setup.viscosity_pa_s = 1.0;
+    setup.bodies = {gles::BodySetup{.shape = gles::Sphere{0.008}, .coupled = gles::Coupled{}}};
+    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, setup);
+    Faults faults(gpu);
+    faults.begin_step(*fluid);
+    fluid->step(0.02, {{.centre_m = glm::dvec3(0.02)}}, false);
+    fluid->wait_result();
+    faults.put(*fluid, {Fault::Place::Pressure, std::numeric_limits<float>::quiet_NaN()});
+    EXPECT_EQ(non_finite_texels(download(*fluid)), 4) << "a texel of the pressure is four cells";
+}
+
+TEST_F(TrialTest, AFaultThatMissesIsAnError) {
+    gles::FluidSetup setup;
+    setup.cells = glm::ivec3(8);
+    setup.bodies = {gles::BodySetup{gles::Sphere{0.008}}};
+    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, setup);
+    Faults faults(gpu);
+    const auto strike = [&](Fault::Place place) { faults.put(*fluid, {place, 1e30f}); };
+    EXPECT_NO_THROW(strike(Fault::Place::Smoke)) << "there is none";
+    EXPECT_THROW(strike(Fault::Place::Fractions), std::logic_error) << "no step has drawn them";
+    faults.begin_step(*fluid);
+    fluid->step(0.02, {{.centre_m = glm::dvec3(0.02)}}, false);
+    EXPECT_NO_THROW(strike(Fault::Place::Fractions));
+    faults.begin_step(*fluid);
+    fluid->step(0.0, {{.centre_m = glm::dvec3(0.02)}}, false);
+    EXPECT_NO_THROW(strike(Fault::Place::Fractions)) << "a step that is refused leaves them";
 }
 
 TEST_F(TrialTest, AskedForACriterionItSaysWhatIsWrong) {
@@ -162,7 +193,9 @@ TEST_F(TrialTest, NewExtremesOfTransportWouldBeSeen) {
 
 TEST_F(TrialTest, WaitsLongEnoughForTheCalm) {
     // Nobody says so, but the ball goes on for ever.
-    const Outcome outcome = outcome_of({.name = "restless", .drive = Drive::Steps, .bodies =
+    const Outcome outcome = outcome_of({.name = "restless",
+                                        .drive = Drive::Steps,
+                                        .bodies =
                                             [](const Moment& m, std::vector<gles::BodyState>& bodies) {
                                                 bodies[0].velocity_m_s.x = std::cos(6.0 * m.time_s);
                                             }},
