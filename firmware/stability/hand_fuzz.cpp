@@ -22,7 +22,10 @@ Instant nanoseconds(double seconds) {
 /// All that moves is the hand, and of that anything may come: of the fields only what is no number can be said to be wrong.
 Justified anything() {
     constexpr double kAny = std::numeric_limits<double>::infinity();
-    return {.speed_m_s = kAny, .work_j = kAny, .smoke_added = {0.0, kAny}};
+    return {.speed_m_s = kAny,
+            .work_j = kAny,
+            .smoke_added = {-kAny, kAny},
+            .temperature_added_k = {-kAny, kAny}};
 }
 
 }  // namespace

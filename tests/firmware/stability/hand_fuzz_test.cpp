@@ -35,6 +35,11 @@ TEST_F(HandFuzzTest, NoRandomHandGetsAForceItMustNotGet) {
     EXPECT_GT(slewed, 100u);
 }
 
+TEST_F(HandFuzzTest, HeatThatASourceMakesIsNobodysFault) {
+    const Scene scene = load_scene("everything", std::vector<std::string>{"tank.cells=[8, 8, 8]"}).scene;
+    EXPECT_EQ(play_random_hand(gpu, scene, 1, Seconds(1.0)).violation, "");
+}
+
 TEST_F(HandFuzzTest, TheSameSeedIsTheSameHand) {
     const HandFuzzFigures once = play_random_hand(gpu, coarse(), 3, Seconds(1.0)),
                           again = play_random_hand(gpu, coarse(), 3, Seconds(1.0));
