@@ -9,7 +9,7 @@ namespace eddy::stability {
 struct History {
     struct Step {
         double time_s = 0.0;  ///< at its end
-        double dt_s = 0.0;
+        double dt_s = 0.0;    ///< that the fluid took
         bool disturbed = true;
         long resets = 0;                     ///< so far
         std::vector<gles::Load> loads = {};  ///< without what bodies feel at rest

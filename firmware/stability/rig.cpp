@@ -1,6 +1,7 @@
 #include "firmware/stability/rig.h"
 
 #include "firmware/show.h"
+#include "gles/fluid/step_guard.h"
 
 namespace eddy::stability {
 namespace {
@@ -19,8 +20,10 @@ class Steps final : public Rig {
             moment.flow(u);
             fluid_->set_velocity(u);
         }
-        std::vector<gles::BodyState> bodies = motions_.at(time_s_ + moment.dt_s, moment.dt_s);
-        time_s_ += moment.dt_s;
+        const double passes_s = taken_s(fluid_->setup(), moment.dt_s);
+        time_s_ += passes_s;
+        std::vector<gles::BodyState> bodies =
+            motions_.at(time_s_, passes_s > 0.0 ? passes_s : moment.scene->solver.dt_s);
         if (const auto held = motions_.held()) {
             gles::BodyState& body = bodies[*held];
             body.centre_m = moment.hand_m;
@@ -91,6 +94,11 @@ class Exhibit final : public Rig {
 };
 
 }  // namespace
+
+double taken_s(const gles::FluidSetup& setup, double dt_s) {
+    gles::GuardCounts uncounted;
+    return gles::guarded_step_s(dt_s, setup, uncounted).value_or(0.0);
+}
 
 std::unique_ptr<Rig> make_rig(gles::Gpu& gpu, const Scene& scene, const gles::FluidSetup& setup,
                               bool with_hand, ChangeBodies bodies) {

@@ -23,6 +23,9 @@ class Rig {
     virtual void change_preset() {}
 };
 
+/// How much time the fluid lets pass in a step that is asked to last dt_s: none in one that it refuses.
+double taken_s(const gles::FluidSetup& setup, double dt_s);
+
 /// `setup`: of the scene; with a hand, the exhibit makes its own. `bodies`: see Case::bodies; of all cases that are tried at
 /// once.
 using ChangeBodies = std::function<void(const Moment&, std::vector<gles::BodyState>&)>;

@@ -138,7 +138,7 @@ class Run {
     std::optional<TransportWatch> transport_;
     History history_;
     long step_ = 0, resets_ = 0, pardoned_until_ = 0;
-    double time_s_ = 0.0, calm_from_s_ = 0.0, unseen_s_ = 0.0;
+    double time_s_ = 0.0, fluid_s_ = 0.0, calm_from_s_ = 0.0, unseen_s_ = 0.0;
 };
 
 Moment Run::moment_now() const {
@@ -158,6 +158,7 @@ void Run::prepare(const Moment& moment) {
     }
     if (moment.reset) {
         rig_->reset();
+        fluid_s_ = 0.0;
         ++resets_;
     }
     if (moment.change_preset) rig_->change_preset();
@@ -189,15 +190,17 @@ void Run::step() {
     rig_->step(moment, hand_.pose(), hand_.now());
     const double wall_s = seconds_since(start);
     if (watched) judge_transport();
-    time_s_ += std::max(0.0, moment.dt_s);
-    unseen_s_ += std::max(0.0, moment.dt_s);
+    const double passed_s = taken_s(setup_, moment.dt_s);
+    // The hand moves on while the machine stalls; without one there is no clock but the fluid's.
+    time_s_ += mixture_.with_hand ? moment.dt_s : passed_s;
+    fluid_s_ += passed_s;
+    unseen_s_ += passed_s;
     const std::vector<gles::BodyState>& bodies = rig_->fluid().bodies();
     history_.steps.push_back(
-        {time_s_, moment.dt_s, moment.disturbs(), resets_, loads(), bodies, rig_->force_methods(), wall_s});
+        {time_s_, passed_s, moment.disturbs(), resets_, loads(), bodies, rig_->force_methods(), wall_s});
     const std::vector<gles::Load>& felt = history_.steps.back().loads;
     // With a hand only its own load comes back: what other bodies do is then counted by their speed.
-    ledger_.add(time_s_, moment.dt_s, bodies,
-                felt.size() == bodies.size() ? felt : std::vector<gles::Load>());
+    ledger_.add(fluid_s_, passed_s, bodies, felt.size() == bodies.size() ? felt : std::vector<gles::Load>());
     look(moment);
     ++step_;
 }
@@ -211,7 +214,7 @@ void Run::look(const Moment& moment) {
         fields = download(rig_->fluid());
         history_.looks.push_back(look_at(history_.tank, *fields, step_));
         if (const auto& measure = alone().measure)
-            history_.looks.back().measured = measure(gpu_, rig_->fluid(), *fields, time_s_);
+            history_.looks.back().measured = measure(gpu_, rig_->fluid(), *fields, fluid_s_);
         ledger_.add_fields(std::exchange(unseen_s_, 0.0), *fields);
     }
     rule_.see({.step = step_ + 1,

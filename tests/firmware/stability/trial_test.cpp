@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tests/gles/gl_fixture.h"
 
@@ -107,6 +108,66 @@ TEST_F(TrialTest, AFaultThatMissesIsAnError) {
     faults.begin_step(*fluid);
     fluid->step(0.0, {{.centre_m = glm::dvec3(0.02)}}, false);
     EXPECT_NO_THROW(strike(Fault::Place::Fractions)) << "a step that is refused leaves them";
+}
+
+/// In the fifth of 20 steps the clock says something else.
+Case clock_says(double dt_s) {
+    return {.name = "clock", .drive = Drive::Steps, .script = [dt_s](Moment& m) {
+                if (m.step == 5) m.dt_s = dt_s;
+            }};
+}
+
+TEST_F(TrialTest, AfterAStepThatIsRefusedBodiesMoveOn) {
+    Case one = clock_says(std::numeric_limits<double>::quiet_NaN());
+    one.change = [](Scene& s) {
+        s.bodies[0].motion = BodyMotion::Prescribed;
+        s.bodies[0].oscillation = Scene::Oscillation{.amplitude_m = {0.02, 0.0, 0.0}, .frequency_hz = 1.0};
+    };
+    double last_x = 0.0, before_x = 0.0;
+    one.complaint = [&](const History& history) -> std::optional<std::string> {
+        last_x = history.steps[19].bodies[0].centre_m.x;
+        before_x = history.steps[18].bodies[0].centre_m.x;
+        return {};
+    };
+    EXPECT_TRUE(outcome_of(one).verdict.pass);
+    EXPECT_GT(std::abs(last_x - before_x), 1e-4);
+    // 19 steps of 20 ms have passed.
+    EXPECT_NEAR(last_x, 0.08 + 0.02 * std::sin(2.0 * std::numbers::pi * 0.38), 1e-9);
+}
+
+TEST_F(TrialTest, OnlyTimeThatTheFluidTookPasses) {
+    const auto lasts_s = [&](double dt_s) {
+        Case one = clock_says(dt_s);
+        double time_s = 0.0;
+        one.complaint = [&](const History& history) -> std::optional<std::string> {
+            time_s = history.steps.back().time_s;
+            return {};
+        };
+        EXPECT_TRUE(outcome_of(one).verdict.pass);
+        return time_s;
+    };
+    EXPECT_NEAR(lasts_s(0.02), 0.40, 1e-9);
+    EXPECT_NEAR(lasts_s(-0.02), 0.38, 1e-9);
+    EXPECT_NEAR(lasts_s(std::numeric_limits<double>::infinity()), 0.38, 1e-9);
+    EXPECT_NEAR(lasts_s(900.0), 0.48, 1e-9) << "the longest step of the fluid is 0.1 s";
+}
+
+TEST_F(TrialTest, TimeThatTheFluidDidNotTakeJustifiesNothing) {
+    // In 900 s the source would have made smoke of 9; this comes from a fault.
+    Case one = clock_says(900.0);
+    one.change = [](Scene& s) {
+        Scene::Source& source = s.sources.emplace_back();
+        source.name = "source";
+        source.centre_m = 0.3 * s.tank.size_m;
+        source.radius_m = 0.02;
+        source.smoke_per_s = 0.01;
+    };
+    one.script = [clock = one.script](Moment& m) {
+        clock(m);
+        if (m.step == 10) m.faults = {{Fault::Place::Smoke, 7.0f}};
+    };
+    one.puts_faults = true;
+    EXPECT_THAT(outcome_of(one).verdict.reason, HasSubstr("smoke from"));
 }
 
 TEST_F(TrialTest, AskedForACriterionItSaysWhatIsWrong) {
