@@ -6,6 +6,7 @@
 #include "firmware/stability/field_work.h"
 #include "gles/body/bounds.h"
 #include "gles/body/mass_properties.h"
+#include "gles/fluid/transport.h"
 
 namespace eddy::stability {
 namespace {
@@ -34,10 +35,6 @@ double largest(const Scene& scene, const Formula& formula) {
                 most = std::max(most, std::abs(formula.evaluate(at.x, at.y, at.z, 0.0)));
             }
     return most;
-}
-
-bool is_running(const Scene::Source& source, double time_s) {
-    return time_s >= source.start_s && (!source.stop_s || time_s < *source.stop_s);
 }
 
 double square(double x) {
@@ -150,7 +147,7 @@ double Ledger::around_j(std::size_t i, double speed_m_s) const {
 void Ledger::add_sources(double time_s, double dt_s) {
     for (std::size_t i = 0; i < scene_.sources.size(); ++i) {
         const Scene::Source& source = scene_.sources[i];
-        const bool runs = is_running(source, time_s);
+        const bool runs = gles::is_running(setup_.sources.at(i), time_s);
         if (!runs) {
             running_[i] = false;
             continue;

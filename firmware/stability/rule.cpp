@@ -5,12 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "firmware/haptic/vector.h"
+#include "gles/fluid/step_guard.h"
+
 namespace eddy::stability {
 namespace {
-
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// Less than the whole range allowed by more than rounding.
 bool leaves(const FieldRange& found, const FieldRange& start, const FieldRange& added) {
@@ -54,7 +53,7 @@ void Rule::see_loads(const StepSeen& step) {
     force_n_ = 0.0;
     for (std::size_t i = 0; i < step.loads.size(); ++i) {
         const gles::Load& load = step.loads[i];
-        if (!is_finite(load.force_n) || !is_finite(load.torque_nm)) {
+        if (!gles::is_finite(load)) {
             ++verdict_.non_finite;
             if (!step.pardoned) blame(step.step, fmt::format("the load on body {} is not finite", i));
             continue;
