@@ -14,7 +14,8 @@ void add_stability(CLI::App& app, StabilityOptions& stability) {
         "Hard cases: what a hand, a file or a driver can do to the fluid, and whether it stands it");
     verb->option_defaults()->take_last();
     verb->add_flag("--list", stability.list, "list the cases: what each provokes, and what it wants");
-    auto* quick = verb->add_flag("--quick", stability.quick, "60 steps of each on 8^3 cells (three minutes)");
+    auto* quick = verb->add_flag("--quick", stability.quick,
+                                 "of each as many steps on 8^3 cells as it takes to happen (three minutes)");
     auto* full = verb->add_flag(
         "--full", stability.full,
         "on four grids up to 64^3, the longest runs and every pair of cases as well (a day in software)");

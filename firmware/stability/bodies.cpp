@@ -106,6 +106,7 @@ std::vector<Case> body_cases() {
          .complaint =
              all_of({forces_balance(1e-3), force_is_continuous(0, 0.5, 20), force_is_continuous(1, 0.5, 20)}),
          .remark = remark_on_balance(),
+         .least_steps = 100,
          .calm_share = 0.0,
          // What two balls press out from between them at the last, half a cell apart.
          .narrowing =

@@ -45,8 +45,8 @@ const std::vector<Case>& all_cases() {
     return cases;
 }
 
-const std::vector<NotOffered>& not_offered() {
-    static const std::vector<NotOffered> list{
+const std::vector<NotTried>& not_offered() {
+    static const std::vector<NotTried> list{
         {22, "half-float textures",
          "this version computes in 32 bits only; the values that would leave 16 bits are "
          "driven through it all the same (past-65504, below-6e-8)"},
@@ -59,14 +59,23 @@ const std::vector<NotOffered>& not_offered() {
     return list;
 }
 
+const std::vector<NotTried>& tried_elsewhere() {
+    static const std::vector<NotTried> list{
+        {21, "a hundred thousand steps, with nobody there and with somebody who stirs",
+         "the exhibit itself takes them, judged by what drifts: eddy stability --endless 100000"},
+    };
+    return list;
+}
+
 std::vector<const Case*> cases_named(const std::string& name) {
     std::vector<const Case*> found;
     for (const Case& one : all_cases())
         if (one.name == name || std::to_string(one.number) == name) found.push_back(&one);
     if (!found.empty()) return found;
-    for (const NotOffered& one : not_offered())
-        if (std::to_string(one.number) == name)
-            throw InputError(fmt::format("--case {}: {}: {}", name, one.what, one.why));
+    for (const auto* const list : {&not_offered(), &tried_elsewhere()})
+        for (const NotTried& one : *list)
+            if (std::to_string(one.number) == name)
+                throw InputError(fmt::format("--case {}: {}: {}", name, one.what, one.why));
     std::vector<std::string_view> names;
     for (const Case& one : all_cases()) names.push_back(one.name);
     throw InputError(fmt::format("--case {}: there is no such case; nearest first: {}", in_quotes(name),

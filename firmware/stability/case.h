@@ -82,6 +82,8 @@ struct Case {
     bool ends_when_red = false;  ///< how far it goes after that is of no interest
     bool looks_always = false;   ///< into the fields, after each step, whatever that costs
     long steps = 500;
+    /// In fewer, what makes it hard does not all happen, or not all of it can be judged.
+    long least_steps = 0;
     double calm_share =
         0.5;  ///< of the steps, at the end, in which nothing disturbs; 0: something always does
     /// How much faster the flow must be in a gap: see Justified. None: no gap is narrow.
@@ -99,12 +101,15 @@ struct Case {
 /// Every case, by number.
 const std::vector<Case>& all_cases();
 
-/// What the list of hard cases asks for and this version does not have.
-struct NotOffered {
+/// What the list of hard cases asks for and no cell of the matrix tries.
+struct NotTried {
     int number;
     std::string what, why;
 };
-const std::vector<NotOffered>& not_offered();
+/// What this version does not have.
+const std::vector<NotTried>& not_offered();
+/// What is tried in another way.
+const std::vector<NotTried>& tried_elsewhere();
 
 /// The cases that a user means by "23" or "teleport-5". Throws InputError that lists the names.
 std::vector<const Case*> cases_named(const std::string& name);
@@ -118,7 +123,7 @@ glm::dvec3 stroke_m(const Moment& moment);
 // The rows, by what makes them hard.
 std::vector<Case> jet_cases();       // 1, 19, 20
 std::vector<Case> time_cases();      // 2, 3
-std::vector<Case> hand_cases();      // 4, 5, 21, 30, 34
+std::vector<Case> hand_cases();      // 4, 5, 30, 34
 std::vector<Case> wall_cases();      // 6, 7, 10, 11
 std::vector<Case> body_cases();      // 8, 9, 12, 13
 std::vector<Case> distance_cases();  // 33

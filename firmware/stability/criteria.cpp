@@ -10,9 +10,6 @@ namespace {
 
 using Complaint = std::optional<std::string>;
 
-/// Of shorter runs nobody can say whether something levels off.
-constexpr long kLongEnough = 400;
-
 double pressure_of(const History::Look& look) {
     return std::max(std::abs(look.pressure_pa.low), std::abs(look.pressure_pa.high));
 }
@@ -38,7 +35,7 @@ double setting_off_pa(const History& history, double speed_m_s) {
 
 Criterion levels_off(double (*figure)(const History::Look&), double factor, const char* what) {
     return [=](const History& history) -> Complaint {
-        if (history.planned_steps < kLongEnough) return {};
+        if (history.planned_steps < kLevelSteps) return {};
         const double before = most(history, 0.5, 0.75, figure), last = most(history, 0.75, 1.0, figure);
         if (last <= factor * before) return {};
         return fmt::format("{} still grows: {:.3g} in the third quarter, {:.3g} in the last", what, before,

@@ -13,6 +13,9 @@ using Criterion = std::function<std::optional<std::string>(const History&)>;
 /// After these an impulsive start is over.
 inline constexpr long kSettlingSteps = 10;
 
+/// Of shorter runs nobody can say whether something levels off: nothing is said of it (Case::least_steps).
+inline constexpr long kLevelSteps = 400;
+
 /// |p| <= 100 rho (U^2 + U L / dt): a hundred times what it takes to bring the tank to the speed U in a step.
 Criterion pressure_bounded(double speed_m_s);
 /// The largest |p| of the last quarter is at most 1.5 times that of the quarter before.

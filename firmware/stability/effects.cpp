@@ -25,6 +25,7 @@ Case swirls(double strength_1_s) {
             .complaint = energy_levels_off_or_is_small(),
             // The strongest feeds the flow until the limit holds it: longer than friction takes.
             .steps = strength_1_s > 10.0 ? 2500 : 1500,
+            .least_steps = strength_1_s > 10.0 ? 2500 : 1500,
             .calm_share = 0.0};
 }
 

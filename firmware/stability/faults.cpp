@@ -28,6 +28,7 @@ Case struck(const char* name, const char* title, Fault::Place place) {
                     m.faults.push_back({place, kNone[static_cast<std::size_t>(m.step / 20) % kNone.size()]});
             },
         .complaint = loads_stay_finite(),
+        .least_steps = 160,
         .puts_faults = true,
         .pardon_steps = 5};
 }
@@ -67,6 +68,7 @@ std::vector<Case> fault_cases() {
                                       nan ? Fault::Extent::Everywhere : Fault::Extent::Garbage});
                          },
                      .complaint = same_after_each_reset(),
+                     .least_steps = 120,
                      .calm_share = 0.0,
                      .puts_faults = true});
     cases.push_back({.number = 24,

@@ -151,6 +151,7 @@ std::vector<Case> friction_cases() {
                      .complaint = energy_never_rises(),
                      .remark = remark_on_energy(),
                      .steps = 100,
+                     .least_steps = 100,
                      .calm_share = 0.0});
     return cases;
 }

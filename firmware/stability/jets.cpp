@@ -84,6 +84,7 @@ std::vector<Case> jet_cases() {
                          },
                      .script = rest_in_the_middle,
                      .complaint = all_of({pressure_bounded(0.1), pressure_levels_off()}),
+                     .least_steps = kLevelSteps,
                      .calm_share = 0.0});
     return cases;
 }

@@ -95,7 +95,8 @@ std::vector<LongRun> long_runs_from_csv(const std::string& text, const std::file
 
 std::string report_of(std::span<const LongRun> runs) {
     std::string text =
-        "\n## Runs without an end\n\nThe exhibit on virtual time (`eddy stability --endless`): the show, the "
+        "\n## Runs without an end\n\nCase 21. The exhibit on virtual time (`eddy stability --endless`): the "
+        "show, the "
         "1 kHz loop and its law. Forces are means over two minutes of the scene, all else is as it was then; "
         "memory is that of the whole program, objects are textures made, programs and framebuffers.\n";
     for (const LongRun& run : runs) {

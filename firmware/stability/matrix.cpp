@@ -17,6 +17,8 @@ namespace eddy::stability {
 namespace {
 
 constexpr long kQuickSteps = 60;
+/// A case that takes more steps until all of it has happened gets them, but for those that take more than this.
+constexpr long kMostQuickSteps = 500;
 
 /// Those that everybody's tests try at once: one of each kind, each hard by itself. Named as in the whole product.
 constexpr const char* kQuickPairs[] = {"stall+inflow-20hz",          "teleport-50+late-answers",
@@ -90,6 +92,14 @@ std::vector<glm::ivec3> grids_for(const std::vector<const Case*>& row, const Ord
     return {glm::ivec3(8), glm::ivec3(25), glm::ivec3(33, 47, 29), glm::ivec3(64)};
 }
 
+long most_steps(const std::vector<const Case*>& row, Extent extent) {
+    if (extent != Extent::Quick) return std::numeric_limits<long>::max();
+    long most = kQuickSteps;
+    for (const Case* one : row)
+        if (one->least_steps <= kMostQuickSteps) most = std::max(most, one->least_steps);
+    return most;
+}
+
 /// A field of a line of CSV.
 std::string quoted(const std::string& text) {
     std::string result = "\"";
@@ -147,20 +157,23 @@ long Cell::steps() const {
 }
 
 std::vector<Cell> cells_of(const Order& order) {
-    const long most_steps = order.extent == Extent::Quick ? kQuickSteps : std::numeric_limits<long>::max();
     std::vector<Cell> cells;
     for (const std::vector<const Case*>& row : asked_for(order))
         for (const glm::ivec3& grid : grids_for(row, order))
             for (const Effort effort : {Effort::Default, Effort::Least}) {
                 // Pairs are many; the solver's best is what the exhibit runs.
                 if (row.size() > 1 && effort == Effort::Least) continue;
-                cells.push_back({row, {grid, effort}, most_steps});
+                cells.push_back({row, {grid, effort}, most_steps(row, order.extent)});
             }
     return cells;
 }
 
 bool Result::is_of(const Cell& cell) const {
     return name == cell.name() && grid == grid_name(cell.trial.cells) && effort == to_word(cell.trial.effort);
+}
+
+bool Result::counts_for(const Cell& cell) const {
+    return is_of(cell) && (!outcome.verdict.pass || outcome.steps >= cell.steps());
 }
 
 Result result_of(const Cell& cell, const Outcome& outcome) {
@@ -174,7 +187,7 @@ Result result_of(const Cell& cell, const Outcome& outcome) {
 
 const Result* find(std::span<const Result> results, const Cell& cell) {
     const auto found = std::find_if(results.begin(), results.end(),
-                                    [&](const Result& result) { return result.is_of(cell); });
+                                    [&](const Result& result) { return result.counts_for(cell); });
     return found == results.end() ? nullptr : &*found;
 }
 

@@ -7,7 +7,7 @@
 namespace eddy::stability {
 
 enum class Extent {
-    Quick,  ///< few steps on 8^3 cells, and a handful of pairs: some minutes
+    Quick,  ///< as few steps as do on 8^3 cells, and a handful of pairs: some minutes
     Usual,  ///< all cases but the longest, to their end, on 8^3 and 25^3 cells
     Full    ///< everything, on four grids, and every pair
 };
@@ -41,10 +41,12 @@ struct Result {
     Outcome outcome = {};
     std::string tried = {};  ///< when, and by what: "2026-11-22 16:53, v0.1.0-3-g1a2b3c4" (built_from.h)
     bool is_of(const Cell& cell) const;
+    /// It is of that cell; and if green, for as long as that is.
+    bool counts_for(const Cell& cell) const;
 };
 /// Tried now, by this program.
 Result result_of(const Cell& cell, const Outcome& outcome);
-/// The result of a cell, or none.
+/// The result that counts for a cell, or none.
 const Result* find(std::span<const Result> results, const Cell& cell);
 
 /// In which order cells are best tried, as indices: small grids first, on each single cases before pairs, and of these those first

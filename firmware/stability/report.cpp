@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <utility>
+
+#include "firmware/built_from.h"
 
 namespace eddy::stability {
 namespace {
@@ -30,13 +32,18 @@ std::string count_of(std::span<const Cell> cells, std::span<const Result> result
     return text;
 }
 
+/// Of what another version than this has found.
+std::string mark_of(const Result& result) {
+    return result.tried.ends_with(fmt::format(", {}", kBuiltFrom)) ? "" : " †";
+}
+
 /// Cells of the table of one case in the report: what a reader asks of it.
 std::string report_line(const Result& r) {
     const Verdict& v = r.outcome.verdict;
     return fmt::format("| {} | {} | {} | {} | {} | {} | {:.2g} | {:.3g} | {} | {} | {:.1f} | {} | {} |\n",
                        r.number, r.name, r.grid, r.effort, r.outcome.steps, v.pass ? "green" : "**red**",
                        v.kinetic_energy_ratio, v.largest_force_n, seconds_of(v.recovery_s), v.non_finite,
-                       r.outcome.wall_s, r.outcome.remark, r.tried);
+                       r.outcome.wall_s, r.outcome.remark, r.tried + mark_of(r));
 }
 
 /// A row for each case and a column for each grid and effort. A case about grids of its own has them in the last.
@@ -114,9 +121,12 @@ std::string list_of(std::span<const Case> cases) {
         text += fmt::format("    {:24} provokes: {}\n", "", one.provokes);
         if (!one.wants.empty()) text += fmt::format("    {:24} wants:    {}\n", "", one.wants);
     }
-    text += "not offered:\n";
-    for (const NotOffered& one : not_offered())
-        text += fmt::format("{:2}  {}: {}\n", one.number, one.what, one.why);
+    for (const auto& [head, list] :
+         {std::pair{"tried in another way", &tried_elsewhere()}, std::pair{"not offered", &not_offered()}}) {
+        text += fmt::format("{}:\n", head);
+        for (const NotTried& one : *list)
+            text += fmt::format("{:2}  {}: {}\n", one.number, one.what, one.why);
+    }
     return text;
 }
 
@@ -139,8 +149,18 @@ std::string table_line(const Result& r) {
 std::string summary_of(std::span<const Cell> cells, std::span<const Result> results) {
     double wall_s = 0.0;
     for (const Result& result : results) wall_s += result.outcome.wall_s;
-    return fmt::format("{} cells of single cases and {} of pairs are green; took {:.0f} s\n",
-                       count_of(cells, results, false), count_of(cells, results, true), wall_s);
+    std::string text = fmt::format("{} cells of single cases and {} of pairs are green; took {:.0f} s\n",
+                                   count_of(cells, results, false), count_of(cells, results, true), wall_s);
+    const auto ended_early = std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) {
+        const double calm_s = planned_calm_s(cell.cases, cell.trial, cell.most_steps);
+        return calm_s > 0.0 && calm_s < kCalmS - 1e-6 && find(results, cell);
+    });
+    if (ended_early > 0)
+        text += fmt::format(
+            "not judged in {} of them: calm {} s after the last disturbance, for which they "
+            "end too early\n",
+            ended_early, kCalmS);
+    return text;
 }
 
 std::string report_of(std::span<const Cell> cells, std::span<const Result> results,
@@ -156,8 +176,8 @@ std::string report_of(std::span<const Cell> cells, std::span<const Result> resul
     text += fmt::format(
         "{}Measured on {}; {}. Each cell says when it was tried, and by which version; until it is tried "
         "again it "
-        "keeps what was found then.\n\n",
-        summary_of(cells, results), renderer, machine);
+        "keeps what was found then. This page was written by version {}; † marks what another found.\n\n",
+        summary_of(cells, results), renderer, machine, kBuiltFrom);
     text +=
         "A cell is green if all of this holds (`firmware/stability/rule.h`):\n\n"
         "- no texel, force or torque is nan or infinite;\n"
@@ -170,7 +190,7 @@ std::string report_of(std::span<const Cell> cells, std::span<const Result> resul
         "- the hand never gets more than its limit, and the force rises no faster than the slew limit;\n"
         "- 5 s after the last disturbance the force is below 2 % of its peak, and energy is down to half in "
         "the time of "
-        "friction;\n"
+        "friction (what ends earlier, as pairs do, is not judged by this);\n"
         "- what the case wants besides (`eddy stability --list`).\n\n"
         "It judges fields that it downloads and forces that the hand gets, never what the solver says of "
         "itself. The column "
@@ -183,8 +203,8 @@ std::string report_of(std::span<const Cell> cells, std::span<const Result> resul
         text += "## Red\n\n| case | name | grid | effort | why |\n|---|---|---|---|---|\n";
         for (const Result& r : results)
             if (!r.outcome.verdict.pass)
-                text += fmt::format("| {} | {} | {} | {} | {} |\n", r.number, r.name, r.grid, r.effort,
-                                    r.outcome.verdict.reason);
+                text += fmt::format("| {} | {} | {} | {} | {}{} |\n", r.number, r.name, r.grid, r.effort,
+                                    r.outcome.verdict.reason, mark_of(r));
         text += "\n" + known_of_red(results) + "\n";
     }
     text += "## All of it\n\n" + overview(cells, results) + "\n## Single cases\n\n";
@@ -196,9 +216,12 @@ std::string report_of(std::span<const Cell> cells, std::span<const Result> resul
     text += kReportHead;
     for (const Result& r : results)
         if (is_pair(r)) text += report_line(r);
-    text += "\n## Not offered\n\n";
-    for (const NotOffered& one : not_offered())
-        text += fmt::format("- {}, {}: {}.\n", one.number, one.what, one.why);
+    for (const auto& [head, list] :
+         {std::pair{"Tried in another way", &tried_elsewhere()}, std::pair{"Not offered", &not_offered()}}) {
+        text += fmt::format("\n## {}\n\n", head);
+        for (const NotTried& one : *list)
+            text += fmt::format("- {}, {}: {}.\n", one.number, one.what, one.why);
+    }
     return text;
 }
 

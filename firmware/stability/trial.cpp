@@ -235,10 +235,19 @@ Outcome Run::outcome() {
             outcome.verdict = rule_.verdict();
         }
     if (alone().remark) outcome.remark = alone().remark(history_);
+    for (const Case* one : cases_)
+        if (mixture_.steps < one->least_steps)
+            outcome.remark += fmt::format("{}not judged: all of {}, which takes {} steps",
+                                          outcome.remark.empty() ? "" : "; ", one->name, one->least_steps);
     return outcome;
 }
 
 }  // namespace
+
+double planned_calm_s(std::span<const Case* const> cases, const Trial& trial, long most_steps) {
+    const Mixture all = mixture_of(cases, trial, most_steps);
+    return all.scene.solver.dt_s * static_cast<double>(all.steps) * all.calm_share;
+}
 
 Outcome try_out(gles::Gpu& gpu, std::span<const Case* const> cases, const Trial& trial, long most_steps) {
     const Clock::time_point start = Clock::now();

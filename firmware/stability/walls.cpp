@@ -39,6 +39,7 @@ Case cover(const char* name, const char* title, double share) {
                 ball(s) = lid;
             },
         .complaint = pressure_holds(kStream + 0.2 * 2.0 * std::numbers::pi * 0.15 * 0.16),
+        .least_steps = kLevelSteps,
         .calm_share = 0.0,
         // What comes in below a lid of s L goes out at its edge, through half a cell at the last; and the stream goes
         // through what it leaves open.
@@ -91,6 +92,7 @@ std::vector<Case> wall_cases() {
                  ball(s) = piston;
              },
          .complaint = pressure_holds(std::numbers::pi * 0.15 * 0.16),
+         .least_steps = kLevelSteps,
          .calm_share = 0.0});
     cases.push_back(
         {.number = 7,
@@ -100,6 +102,7 @@ std::vector<Case> wall_cases() {
          .wants = "the pressure stays bounded, and does not drift unless it is small",
          .change = cup,
          .complaint = pressure_holds(0.4 * std::numbers::pi * 0.3 * 0.16),
+         .least_steps = kLevelSteps,
          .calm_share = 0.0,
          // Out of the cup, 0.5 by 0.36^2 of its side, through a slit as low as a cell's tenth: no more than this
          // is resolved.
@@ -137,6 +140,7 @@ std::vector<Case> wall_cases() {
                              ball(s).oscillation = swing(glm::dvec3(0.5 * s.tank.cell_m()), 10.0);
                          },
                      .complaint = no_other_lines(10.0),
+                     .least_steps = 160,  // four periods of what has settled
                      .calm_share = 0.0});
     return cases;
 }

@@ -14,7 +14,8 @@ using testing::HasSubstr;
 TEST(HardCase, EveryNumberOfTheListIsTriedOrSaidToBeMissing) {
     std::set<int> numbers;
     for (const Case& one : all_cases()) numbers.insert(one.number);
-    for (const NotOffered& one : not_offered()) numbers.insert(one.number);
+    for (const NotTried& one : not_offered()) numbers.insert(one.number);
+    for (const NotTried& one : tried_elsewhere()) numbers.insert(one.number);
     for (int number = 1; number <= 34; ++number) EXPECT_TRUE(numbers.contains(number)) << number;
 }
 
@@ -35,6 +36,7 @@ TEST(HardCase, IsFoundByNumberAndByName) {
     EXPECT_EQ(cases_named("4").size(), 3u);
     EXPECT_THAT(complaint_about([] { cases_named("pistol"); }), HasSubstr("nearest first: \"piston\""));
     EXPECT_THAT(complaint_about([] { cases_named("31"); }), HasSubstr("no free surface"));
+    EXPECT_THAT(complaint_about([] { cases_named("21"); }), HasSubstr("eddy stability --endless 100000"));
 }
 
 TEST(HardCase, GridsAreNamedAsTheyAreWritten) {

@@ -2,8 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <set>
 
+#include "firmware/built_from.h"
+#include "firmware/stability/criteria.h"
 #include "firmware/stability/report.h"
 #include "tests/firmware/stability/complaint.h"
 
@@ -81,15 +86,99 @@ TEST(HardMatrix, ItsCsvReadsBack) {
 TEST(HardMatrix, OfACellThatIsInSeveralPartsTheLastCounts) {
     const std::vector<Cell> cells = cells_of({.cases = {"2"}, .grids = {"8"}});
     std::vector<Result> all;
-    for (const Cell& cell : cells) all.push_back(result_of(cell, {}));
+    for (const Cell& cell : cells) all.push_back(result_of(cell, {.steps = cell.steps()}));
     Result again = all[2];
-    again.outcome.steps = 7;
+    again.outcome.wall_s = 7.0;
     const std::vector<std::vector<Result>> parts{{all[1], all[3]}, {all[0], all[2]}, {again}};
     const std::vector<Result> together = merged(cells, parts);
     ASSERT_EQ(together.size(), 4u);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(together[i].is_of(cells[i]));
-    EXPECT_EQ(together[2].outcome.steps, 7);
+    EXPECT_EQ(together[2].outcome.wall_s, 7.0);
     EXPECT_EQ(merged(cells, std::vector<std::vector<Result>>{{all[1]}}).size(), 1u);
+}
+
+TEST(HardMatrix, WhatWasGreenForFewStepsIsNotForMore) {
+    const Order order{.cases = {"stall"}, .grids = {"8"}};
+    const std::vector<Cell> cells = cells_of(order);
+    Result least = a_result("stall", true);
+    EXPECT_TRUE(find(std::vector{least}, cells[1]));
+    least.outcome.steps = 100;
+    EXPECT_FALSE(find(std::vector{least}, cells[1]));
+    EXPECT_TRUE(merged(cells, std::vector<std::vector<Result>>{{least}}).empty());
+    Order quick = order;
+    quick.extent = Extent::Quick;
+    EXPECT_TRUE(find(std::vector{least}, cells_of(quick)[1])) << "as many as were asked for";
+    Result red = a_result("stall", false);
+    red.outcome.steps = 3;
+    EXPECT_TRUE(find(std::vector{red}, cells[1])) << "what was red for few steps is red";
+}
+
+/// What a case does to a trial of so many steps, in words; without the fluid.
+std::set<std::string> happens_in(const Case& one, long steps) {
+    const Trial trial{glm::ivec3(8), Effort::Least};
+    Scene scene = common_scene(trial);
+    if (one.change) one.change(scene);
+    const double dt_s = scene.solver.dt_s;
+    std::set<std::string> all;
+    for (long step = 0; step < steps; ++step) {
+        Moment m{.step = step, .time_s = dt_s * static_cast<double>(step), .scene = &scene, .dt_s = dt_s};
+        m.calm_from_s = dt_s * static_cast<double>(steps) * (1.0 - one.calm_share);
+        m.hand_m = m.middle_m();
+        if (one.script) one.script(m);
+        if (!(m.dt_s > 0.1 * dt_s && m.dt_s < 10.0 * dt_s)) all.insert(fmt::format("lasts {}", m.dt_s));
+        for (const Fault& fault : m.faults)
+            all.insert(fmt::format("fault {} {} {}", static_cast<int>(fault.place), fault.value,
+                                   static_cast<int>(fault.extent)));
+        if (m.reset) all.insert("reset");
+        if (m.holds_answer) all.insert("holds its answer");
+        if (m.flow) all.insert("flow");
+        if (m.change_preset) all.insert("preset");
+        const glm::dvec3 away = (m.hand_m - m.middle_m()) / (0.5 * scene.tank.size_m);
+        for (int c = 0; c < 3; ++c)
+            if (std::abs(away[c]) > 1.0)
+                all.insert(fmt::format("{} beyond wall {}", std::abs(away[c]) > 1e9 ? "infinitely" : "just",
+                                       2 * c + (away[c] > 0.0)));
+    }
+    return all;
+}
+
+TEST(HardMatrix, WhatHappensInACaseHappensInItsQuickCellAsWell) {
+    for (const Cell& cell : cells_of({.extent = Extent::Quick}))
+        for (const Case* one : cell.cases)
+            EXPECT_EQ(happens_in(*one, cell.steps()), happens_in(*one, one->steps)) << cell.name();
+}
+
+TEST(HardMatrix, AQuickCellIsLongEnoughToLevelOff) {
+    for (const Cell& cell : cells_of({.extent = Extent::Quick})) {
+        const Case& one = *cell.cases[0];
+        if (cell.cases.size() > 1 || (one.wants.find("drift") == std::string::npos &&
+                                      one.wants.find("levels off") == std::string::npos))
+            continue;
+        EXPECT_GE(one.least_steps, kLevelSteps) << one.name;
+        EXPECT_TRUE(cell.steps() >= kLevelSteps || cell.steps() < one.least_steps)
+            << one.name << ": or it says that it is not judged";
+    }
+}
+
+TEST(HardMatrix, SaysWhereCalmIsNotJudged) {
+    const std::vector<Cell> cells = cells_of({.extent = Extent::Quick, .cases = {"stall", "piston"}});
+    std::vector<Result> results;
+    for (const Cell& cell : cells) results.push_back(result_of(cell, {.steps = cell.steps()}));
+    EXPECT_THAT(summary_of(cells, results), HasSubstr("not judged in 2 of them: calm 5 s"))
+        << "the piston never stops";
+    const std::vector<Cell> whole = cells_of({.cases = {"stall"}, .grids = {"8"}});
+    results.clear();
+    for (const Cell& cell : whole) results.push_back(result_of(cell, {.steps = cell.steps()}));
+    EXPECT_THAT(summary_of(whole, results), testing::Not(HasSubstr("not judged")));
+}
+
+TEST(HardMatrix, ACaseThatCalmsDownDoesSoForAsLongAsTheRuleWaits) {
+    for (const Case& one : all_cases()) {
+        if (one.calm_share == 0.0) continue;
+        const Case* const alone[] = {&one};
+        EXPECT_GE(planned_calm_s(alone, {glm::ivec3(8), Effort::Least}, one.steps), kCalmS - 1e-6)
+            << one.name;
+    }
 }
 
 TEST(HardMatrix, SmallGridsAndWhatWasRedComeFirst) {
@@ -109,13 +198,17 @@ TEST(HardMatrix, ItsReportNamesWhatIsRedAndWhyAndWhatWasNotRun) {
     const std::vector<Cell> cells = cells_of({.cases = {"stall", "jitter", "grid-9^3"}, .grids = {"8", "9"}});
     const std::vector<Result> results{a_result("stall", true), a_result("jitter", false)};
     const std::string report = report_of(cells, results, "a renderer", "a machine", {"folder/heat_map.png"});
-    EXPECT_THAT(report, HasSubstr("| 2 | jitter | 8^3 | least | step 3: a \"bad\", long reason |"));
+    EXPECT_THAT(report, HasSubstr("| 2 | jitter | 8^3 | least | step 3: a \"bad\", long reason † |"));
     EXPECT_THAT(report, HasSubstr("- `jitter`: nobody has found out why yet."));
     EXPECT_THAT(report, HasSubstr("1 of 2 (8 more not run) cells of single cases"));
     EXPECT_THAT(report, HasSubstr("| 2 | stall | not run | green | not run | not run |  |"));
     EXPECT_THAT(report,
                 HasSubstr("| 27 | grid-9^3 |  |  |  |  | 9^3 default: not run, 9^3 least: not run |"));
-    EXPECT_THAT(report, HasSubstr("| half, at least | 2026-11-22, 0.1 |"));
+    EXPECT_THAT(report, HasSubstr("| half, at least | 2026-11-22, 0.1 † |"));
+    Result ours = a_result("stall", true);
+    ours.tried = "2026-11-22, " + std::string(kBuiltFrom);
+    EXPECT_THAT(report_of(cells, std::vector{ours}, "a renderer", "a machine", {}),
+                HasSubstr("| " + ours.tried + " |\n"));
     EXPECT_THAT(report, HasSubstr("](heat_map.png)"));
     EXPECT_THAT(table_line(results[1]), HasSubstr("RED"));
     EXPECT_THAT(report_of(cells, std::vector{a_result("covers-all", false)}, "a renderer", "a machine", {}),

@@ -170,6 +170,13 @@ TEST_F(TrialTest, TimeThatTheFluidDidNotTakeJustifiesNothing) {
     EXPECT_THAT(outcome_of(one).verdict.reason, HasSubstr("smoke from"));
 }
 
+TEST_F(TrialTest, SaysWhatItWasTooShortFor) {
+    Case one{
+        .name = "slow", .remark = [](const History&) { return std::string("a figure"); }, .least_steps = 21};
+    EXPECT_EQ(outcome_of(one).remark, "a figure; not judged: all of slow, which takes 21 steps");
+    EXPECT_EQ(outcome_of(one, 21).remark, "a figure");
+}
+
 TEST_F(TrialTest, AskedForACriterionItSaysWhatIsWrong) {
     const Outcome outcome =
         outcome_of({.name = "picky", .complaint = [](const History& history) {
