@@ -3,9 +3,11 @@
 namespace eddy {
 
 void HandOrders::give(const HapticOrders& orders) {
-    const std::uint64_t resets = orders_.resets;
+    const HapticOrders kept = orders_;
     orders_ = orders;
-    orders_.resets = resets;
+    orders_.resets = kept.resets;
+    orders_.stop = kept.stop;
+    orders_.restarts = kept.restarts;
     exchange_.orders.publish(orders_);
 }
 
@@ -23,6 +25,16 @@ std::optional<GateReason> HandOrders::cause_gone(Instant now, const LoopReport& 
 
 void HandOrders::release_latch() {
     ++orders_.resets;
+    exchange_.orders.publish(orders_);
+}
+
+void HandOrders::stop(bool pressed) {
+    orders_.stop = pressed;
+    exchange_.orders.publish(orders_);
+}
+
+void HandOrders::restart() {
+    ++orders_.restarts;
     exchange_.orders.publish(orders_);
 }
 

@@ -14,11 +14,14 @@ class HandOrders {
 
     explicit HandOrders(HapticExchange& exchange) : exchange_(exchange) {}
 
-    /// From now on; but for the count of resets, which is kept here.
+    /// From now on; but for the stop input and the counts of resets and restarts, which are kept here.
     void give(const HapticOrders& orders);
     /// With each report: the cause of a latch, if it has been gone for so long that the latch may be released.
     std::optional<GateReason> cause_gone(Instant now, const LoopReport& report);
     void release_latch();
+    /// Whether the stop input is pressed. Once it was, there is no force until it is not and somebody says restart().
+    void stop(bool pressed);
+    void restart();
 
   private:
     HapticExchange& exchange_;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "firmware/haptic/dead_man.h"
 #include "firmware/haptic/force_gate.h"
 #include "firmware/haptic/force_law.h"
 #include "firmware/haptic/snapshot.h"
@@ -41,7 +42,9 @@ struct HapticOrders {
     TankFromDevice tank_from_device{};  ///< where the hand's workspace lies in the tank
     glm::dvec3 lowest_m{0.0};           ///< corners of the box the body's centre may not leave, Tank frame
     glm::dvec3 highest_m{0.0};
-    std::uint64_t resets = 0;  ///< count it up to clear a latched fault
+    std::uint64_t resets = 0;    ///< count it up to clear a latched fault
+    bool stop = false;           ///< the stop input is pressed: no force, and none after it until
+    std::uint64_t restarts = 0;  ///< this is counted up while it is not
 };
 
 /// From the loop: counters for the status page. Totals since start.
@@ -53,6 +56,7 @@ struct LoopReport {
     std::uint64_t impulses = 0;  ///< ticks whose raw force was limited before the filter
     ForceReport force{};
     GateCounters gate{};
+    DeadManCounters hand{};
     GateReason reason = GateReason::Disabled;
     HapticState device = HapticState::Absent;
     HapticCounters device_counters{};

@@ -22,7 +22,9 @@ glm::dvec3 ForceGate::operator()(const GateInput& in, Seconds dt) {
         case GateReason::FluidStale:
             return sent_n_ = fade(dt);
         case GateReason::TooFast:
+        case GateReason::Released:
         case GateReason::Disabled:
+        case GateReason::Stopped:
         case GateReason::DeviceNotReady:
         case GateReason::DeviceSilent:
         case GateReason::NotFinite:

@@ -14,7 +14,9 @@ enum class GateReason {
     Starting,
     FluidStale,
     TooFast,
+    Released,
     Disabled,
+    Stopped,
     DeviceNotReady,
     DeviceSilent,
     NotFinite
@@ -25,12 +27,14 @@ struct GateSentence {
     std::string_view word;  ///< for tables (force.csv)
     std::string_view sentence;
 };
-inline constexpr std::array<GateSentence, 8> kGateSentences{{
+inline constexpr std::array<GateSentence, 10> kGateSentences{{
     {GateReason::Open, "open", "the force reaches the hand"},
     {GateReason::Starting, "starting", "the force is being brought in gently"},
     {GateReason::FluidStale, "fluid_stale", "the fluid has not answered in time: the force fades out"},
     {GateReason::TooFast, "too_fast", "the handle moves faster than a hand should: no force"},
+    {GateReason::Released, "released", "nobody seems to hold the handle: no force"},
     {GateReason::Disabled, "disabled", "force is switched off"},
+    {GateReason::Stopped, "stopped", "the stop input was pressed: no force until somebody restarts it"},
     {GateReason::DeviceNotReady, "device_not_ready", "the device is not ready: no force"},
     {GateReason::DeviceSilent, "device_silent", "the device stopped answering: no force until reset"},
     {GateReason::NotFinite, "not_finite", "a number was not finite: no force until reset"},

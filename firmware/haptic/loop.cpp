@@ -5,14 +5,11 @@
 namespace eddy {
 
 HapticLoop::HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace& trace,
-                       const HapticLoopSettings& settings)
-    : device_(device),
-      exchange_(exchange),
-      trace_(trace),
-      state_{.force = HandForce(settings.law, settings.filter), .gate = ForceGate(settings.gate)} {}
+                       const HapticLoopSettings& settings, FlightRecorder* flights)
+    : device_(device), exchange_(exchange), trace_(trace), flights_(flights), state_(hand_state(settings)) {}
 
 void HapticLoop::tick(Instant now) {
-    const Seconds dt = report_.ticks > 0 ? now - last_ : kTick;
+    const Instant step = report_.ticks > 0 ? now - last_ : kTick;
     last_ = now;
 
     device_.poll(now);
@@ -24,13 +21,15 @@ void HapticLoop::tick(Instant now) {
                    .orders = exchange_.orders.newest()};
     if (closing_) in.orders.enabled = false;
 
-    const LawOutput out = law(state_, in, dt);
+    if (flights_) flights_->begin_tick(state_);
+    const LawOutput out = hand_tick(state_, in, step);
     device_.command(out.force_n);
+    if (flights_) flights_->end_tick(step, in, out);
     exchange_.pose.publish(out.pose);
 
     trace_.push({.t = now,
-                 .position_m = state_.hand.position_m(),
-                 .velocity_m_s = state_.hand.velocity_m_s(),
+                 .position_m = state_.law.hand.position_m(),
+                 .velocity_m_s = state_.law.hand.velocity_m_s(),
                  .raw_force_n = out.raw_n,
                  .filtered_force_n = out.filtered_n,
                  .sent_force_n = out.force_n,
@@ -40,9 +39,10 @@ void HapticLoop::tick(Instant now) {
                  .reason = out.reason,
                  .buttons = out.pose.buttons});
     ++report_.ticks;
-    report_.impulses = state_.force.impulses();
-    report_.force = state_.force.report();
-    report_.gate = state_.gate.counters();
+    report_.impulses = state_.law.force.impulses();
+    report_.force = state_.law.force.report();
+    report_.gate = state_.law.gate.counters();
+    report_.hand = state_.dead_man.counters();
     if (!closing_) report_.reason = out.reason;  // the last word of a run is not that it ended
     report_.device = in.device;
     report_.device_counters = device_.counters();

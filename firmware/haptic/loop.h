@@ -2,7 +2,8 @@
 #include <atomic>
 
 #include "firmware/haptic/exchange.h"
-#include "firmware/haptic/law.h"
+#include "firmware/haptic/flight_recorder.h"
+#include "firmware/haptic/hand_tick.h"
 #include "firmware/haptic/trace.h"
 #include "hal/clock.h"
 #include "hal/haptic/haptic_device.h"
@@ -14,20 +15,14 @@ inline constexpr Instant kLate = kTick / 2;
 /// Zero commands sent after stop: one would do, if no packet were ever lost.
 inline constexpr int kClosingTicks = 10;
 
-struct HapticLoopSettings {
-    ForceLaw law = ForceLaw::Model;
-    ForceFilterSettings filter{};
-    GateLimits gate{};
-};
-
 /// The shell around the law: poll, read, law, command, record. A tick allocates nothing, takes no lock,
 /// writes no log and never waits for the fluid. One thread owns the loop and its device; everybody else talks
 /// to it through the exchange.
 class HapticLoop {
   public:
-    /// All three must outlive the loop.
+    /// All of these must outlive the loop. `flights` may be null: then no fault can be run again.
     HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace& trace,
-               const HapticLoopSettings& settings = {});
+               const HapticLoopSettings& settings = {}, FlightRecorder* flights = nullptr);
 
     /// One tick. `now` never goes back. For callers that keep time themselves (replay, tests).
     void tick(Instant now);
@@ -43,7 +38,8 @@ class HapticLoop {
     HapticDevice& device_;
     HapticExchange& exchange_;
     TickTrace& trace_;
-    LawState state_;
+    FlightRecorder* flights_;
+    HandState state_;
     LoopReport report_;
     Instant last_{0};       // time of the last tick
     bool closing_ = false;  // shuts the gate whatever the orders say

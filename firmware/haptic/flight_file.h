@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "firmware/haptic/flight.h"
+
+namespace eddy {
+
+/// A flight as text: a line for each tick, and one for each new answer of the fluid and each new order before it. Numbers are
+/// written so that they are read as the same bits. What the law had in mind at the start is its bytes, as 64-bit Linux lays
+/// them out; whoever changes the law changes them, so a file is rerun by the version that wrote it.
+std::string flight_text(const Flight& flight);
+
+/// `name` for what is said of it. Throws InputError, with the line, if it is no flight, was cut off or changed, or is that of a
+/// program with another law.
+Flight read_flight(std::string_view text, const std::string& name);
+
+}  // namespace eddy

@@ -1,0 +1,23 @@
+#pragma once
+#include "firmware/haptic/dead_man.h"
+#include "firmware/haptic/law.h"
+
+namespace eddy {
+
+struct HapticLoopSettings {
+    ForceLaw law = ForceLaw::Model;
+    ForceFilterSettings filter{};
+    GateLimits gate{};
+};
+
+/// All that one tick leaves to the next.
+struct HandState {
+    DeadMan dead_man{};
+    LawState law{};
+};
+HandState hand_state(const HapticLoopSettings& settings);
+
+/// What is pure in a tick of the loop: the dead man's switch, then the law. Same state and input, same output, bit for bit.
+LawOutput hand_tick(HandState& state, HapticInput in, Seconds dt);
+
+}  // namespace eddy
