@@ -1,5 +1,7 @@
 #include "config/exhibit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "cmake/embedded.h"
@@ -68,31 +70,42 @@ void check(const Exhibit& exhibit, Findings& findings) {
     if (!exhibit.falcon.firmware.empty()) require_absolute("falcon.firmware", exhibit.falcon.firmware);
 }
 
-// The files of a configuration folder, in the order in which they apply.
-std::vector<std::filesystem::path> layers_in(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> files;
+/// The files of a configuration folder, in the order in which they apply.
+struct Layers {
+    std::vector<std::filesystem::path> own;       ///< exhibit.toml, if there is one: the machine's own
+    std::vector<std::filesystem::path> drop_ins;  ///< conf.d: what a fleet's server may put there
+};
+
+Layers layers_in(const std::filesystem::path& folder) {
+    Layers layers;
     try {
         if (std::filesystem::is_directory(folder / "conf.d")) {
             for (const auto& entry : std::filesystem::directory_iterator(folder / "conf.d")) {
-                if (entry.path().extension() == ".toml") files.push_back(entry.path());
+                if (entry.path().extension() == ".toml") layers.drop_ins.push_back(entry.path());
             }
         }
-        std::sort(files.begin(), files.end());
-        if (std::filesystem::exists(folder / "exhibit.toml"))
-            files.insert(files.begin(), folder / "exhibit.toml");
+        std::sort(layers.drop_ins.begin(), layers.drop_ins.end());
+        if (std::filesystem::exists(folder / "exhibit.toml")) layers.own.push_back(folder / "exhibit.toml");
     } catch (const std::filesystem::filesystem_error& error) {
         throw ConfigError({diagnose({error.path1().string(), 0, 0}, "", error.code().message())});
     }
-    return files;
+    return layers;
 }
 
-LoadedExhibit load_layers(const std::vector<std::filesystem::path>& files) {
+/// What the files say, over what the binary ships.
+Exhibit read_layers(const std::vector<std::filesystem::path>& files, Findings& findings) {
     Node document = parse_toml(kExhibitFiles.front().text, std::string(kExhibitFiles.front().name));
     for (const auto& file : files) merge(document, parse_toml(read_file(file.string()), file.string()));
 
-    LoadedExhibit loaded;
+    Exhibit exhibit;
+    read_document(document, exhibit, findings);
+    return exhibit;
+}
+
+LoadedExhibit load_layers(const std::vector<std::filesystem::path>& files) {
     Findings findings;
-    read_document(document, loaded.exhibit, findings);
+    LoadedExhibit loaded;
+    loaded.exhibit = read_layers(files, findings);
     check(loaded.exhibit, findings);
     if (!findings.diagnostics.empty()) throw ConfigError(std::move(findings.diagnostics));
     loaded.origins = std::move(findings.origins);
@@ -102,7 +115,21 @@ LoadedExhibit load_layers(const std::vector<std::filesystem::path>& files) {
 }  // namespace
 
 LoadedExhibit load_exhibit(const std::filesystem::path& folder) {
-    return load_layers(layers_in(folder));
+    const Layers layers = layers_in(folder);
+    std::vector<std::filesystem::path> all = layers.own;
+    all.insert(all.end(), layers.drop_ins.begin(), layers.drop_ins.end());
+    LoadedExhibit loaded = load_layers(all);
+    Findings alone;  // without the drop-ins it need not be complete
+    if (const double own_n = read_layers(layers.own, alone).max_force_n; loaded.exhibit.max_force_n > own_n) {
+        Findings findings;
+        findings.blame(
+            place_of(loaded.origins, "max_force_n"), "max_force_n",
+            fmt::format("a file in conf.d can only lower it, and without them it is {:g}; to raise "
+                        "it, write it into {}",
+                        own_n, (folder / "exhibit.toml").string()));
+        throw ConfigError(std::move(findings.diagnostics));
+    }
+    return loaded;
 }
 
 LoadedExhibit load_exhibit_file(const std::filesystem::path& file) {

@@ -87,6 +87,7 @@ struct LoadedExhibit {
 
 /// Merges what the binary ships (config/exhibit.toml), `folder`/exhibit.toml and `folder`/conf.d/*.toml in
 /// the order of their names; the later wins, key by key. Files and folders that do not exist are skipped.
+/// max_force_n can only be lowered in conf.d, which a server may fill from afar.
 /// Throws ConfigError, with everything that is wrong.
 LoadedExhibit load_exhibit(const std::filesystem::path& folder = "/etc/eddy");
 

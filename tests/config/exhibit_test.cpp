@@ -53,6 +53,20 @@ TEST_F(ExhibitFolder, LaterFilesWinKeyByKeyAndOriginsAreKept) {
     EXPECT_THAT(text, HasSubstr("display = \"auto\"  # config/exhibit.toml:"));
 }
 
+TEST_F(ExhibitFolder, ADropInCanLowerTheCeilingOfTheForceAndNotRaiseIt) {
+    write("exhibit.toml", "max_force_n = 3\n");
+    const std::string drop_in = write("conf.d/10-site.toml", "max_force_n = 2\n");
+    EXPECT_EQ(load_exhibit(folder_).exhibit.max_force_n, 2.0);
+    write("conf.d/10-site.toml", "max_force_n = 3.5\n");
+    EXPECT_THAT(complaints([&] { load_exhibit(folder_); }),
+                ElementsAre(AllOf(StartsWith(drop_in + ":1:15:"), HasSubstr("without them it is 3;"),
+                                  HasSubstr("exhibit.toml"))));
+    write("exhibit.toml", "");
+    EXPECT_THAT(complaints([&] { load_exhibit(folder_); }), testing::SizeIs(0)) << "the factory's is 4";
+    write("conf.d/10-site.toml", "max_force_n = 4.5\n");
+    EXPECT_THAT(complaints([&] { load_exhibit(folder_); }), testing::SizeIs(1));
+}
+
 TEST_F(ExhibitFolder, MistakesNameTheFileTheyAreIn) {
     const std::string main = write("exhibit.toml", "scen = \"stir\"\n");
     const std::string drop_in = write("conf.d/10-site.toml", "\nhaptics = \"falcn\"\nmax_force_n = 9\n");
