@@ -28,6 +28,8 @@ struct CommandLine {
     StabilityOptions stability;
     FalconOptions falcon;
     HapticsOptions haptics;
+    ReplayOptions replay;
+    RtSelftestOptions rt_selftest;
     CLI::App* calibrate = nullptr;
     std::string check_file, print_scene;
     std::vector<std::string> print_set;
@@ -51,6 +53,8 @@ struct CommandLine {
         add_tune();
         add_falcon();
         add_haptics();
+        add_replay();
+        add_rt_selftest();
         auto* check =
             app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
         check->add_option("FILE", check_file, "the file to check")->required();
@@ -140,6 +144,39 @@ struct CommandLine {
         calibrate->add_option("--weight-g", falcon.weight_g, "mass of the weight")
             ->check(number_from(20.0, 400.0))
             ->capture_default_str();
+    }
+
+    void add_replay() {
+        auto* verb = app.add_subcommand(
+            "replay",
+            "A flight recording, which eddy run keeps of the seconds before a fault: says what happened,\n"
+            "and runs the law of the hand again on it, bit for bit, on any machine");
+        verb->option_defaults()->take_last();
+        verb->add_option("FLIGHT", replay.flight, "the recording: STATE-DIR/flights/*.flight")->required();
+        verb->add_option("--plot", replay.plot, "draw force, handle and ages of data into this PNG");
+        verb->footer(
+            "  eddy replay /var/lib/eddy/flights/20261122T200000Z-device_silent.flight\n"
+            "  eddy replay last.flight --plot last.png\n"
+            "Exit status 1 if the rerun differs; it says from which tick on.");
+    }
+
+    void add_rt_selftest() {
+        auto* verb = app.add_subcommand(
+            "rt-selftest",
+            "Whether this machine can keep the haptic loop at 1 kHz: how even its ticks are, how often the\n"
+            "device answers, what the system grants, and how to make it grant more");
+        verb->option_defaults()->take_last();
+        verb->add_option("--seconds", rt_selftest.seconds, "how long to measure; a minute says more")
+            ->check(number_from(1.0, 86400.0))
+            ->capture_default_str();
+        choose(*verb->add_option("--haptics", rt_selftest.haptics, "with which device [that of the exhibit]"),
+               words_of(HapticsChoice{}));
+        verb->add_option("--plot", rt_selftest.plot, "draw how often each period came into this PNG");
+        verb->footer(
+            "  eddy rt-selftest --seconds 60 --plot periods.png   while the exhibit's other work goes on\n"
+            "  eddy rt-selftest --haptics falcon                  the exchange with the real device\n"
+            "Exit status 1 if a limit is missed: mean 1 ms within 1 %, one period in a thousand above\n"
+            "1.5 ms, none above 5 ms, 950 exchanges a second.");
     }
 
     void add_simulate() {
@@ -315,6 +352,8 @@ struct CommandLine {
         if (app.got_subcommand("tune")) return eddy::tune(tune);
         if (app.got_subcommand("falcon")) return act_on_falcon();
         if (app.got_subcommand("haptics")) return study_haptics(haptics);
+        if (app.got_subcommand("replay")) return eddy::replay(replay);
+        if (app.got_subcommand("rt-selftest")) return eddy::rt_selftest(rt_selftest);
         if (app.got_subcommand("check-config")) return check_config(check_file);
         return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);
     }

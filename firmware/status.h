@@ -20,6 +20,7 @@ struct Status {
         double now = 0.0, of_scene = 0.0;
         long changes = 0;
     } gain;
+    std::uint64_t flights = 0;  ///< faults of which the seconds before were kept
 };
 
 /// Replaces the file in one step. A disk that is full or gone must not stop the show: returns false then.

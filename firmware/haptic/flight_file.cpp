@@ -26,13 +26,6 @@ constexpr std::string_view kColumns =
     "#   then raw, filtered, sent force x y z [N], reason, body x y z [m], velocity x y z [m/s], whether "
     "known\n";
 
-/// Fowler, Noll and Vo's hash, 1a, 64 bits: finds what a cable or a disk did to a file.
-std::uint64_t hash_of(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return hash;
-}
-
 /// Both ways by one list of members: writes them, or reads them.
 class Writer {
   public:
@@ -215,6 +208,13 @@ void read_state(Words& words, const std::string& version, HandState& state) {
 
 }  // namespace
 
+// Fowler, Noll and Vo's hash, 1a, 64 bits: finds what a cable or a disk did to a file.
+std::uint64_t flight_sum(std::string_view lines) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : lines) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return hash;
+}
+
 std::string flight_text(const Flight& flight) {
     std::string text =
         fmt::format("{}\n{}version {}\nwritten {}\n", kFirstLine, kColumns, flight.version, flight.written);
@@ -228,7 +228,7 @@ std::string flight_text(const Flight& flight) {
         if (std::string now = line_of("fluid", tick.in.fluid); now != fluid) text += fluid = std::move(now);
         text += line_of("tick", tick);
     }
-    return text + fmt::format("end {} {:016x}\n", flight.ticks.size(), hash_of(text));
+    return text + fmt::format("end {} {:016x}\n", flight.ticks.size(), flight_sum(text));
 }
 
 Flight read_flight(std::string_view text, const std::string& name) {
@@ -245,7 +245,7 @@ Flight read_flight(std::string_view text, const std::string& name) {
         words(ticks);
         const std::string_view hash = words.word();
         words.end();
-        if (hash != fmt::format("{:016x}", hash_of(text.substr(0, end))))
+        if (hash != fmt::format("{:016x}", flight_sum(text.substr(0, end))))
             throw InputError(fmt::format(
                 "{}: was changed since it was written, or damaged: its last line says another sum", name));
     }

@@ -10,6 +10,8 @@ namespace eddy {
 /// written so that they are read as the same bits. What the law had in mind at the start is its bytes, as 64-bit Linux lays
 /// them out; whoever changes the law changes them, so a file is rerun by the version that wrote it.
 std::string flight_text(const Flight& flight);
+/// What the last line of a flight says of all lines before it.
+std::uint64_t flight_sum(std::string_view lines);
 
 /// `name` for what is said of it. Throws InputError, with the line, if it is no flight, was cut off or changed, or is that of a
 /// program with another law.

@@ -23,10 +23,15 @@ void FlightRecorder::end_tick(Instant step, const HapticInput& in, const LawOutp
 }
 
 void FlightRecorder::watch(const HapticInput& in, const LawOutput& out) {
-    if (out.reason <= GateReason::Starting) felt_ = true;
-    if (after_ || !felt_ || !is_fault(out.reason)) return;
-    felt_ = false;
-    std::optional<Instant>& last = last_[static_cast<std::size_t>(out.reason)];
+    if (out.reason <= GateReason::Starting) felt_.fill(true);
+    const auto kind = static_cast<std::size_t>(out.reason);
+    if (!is_fault(out.reason) || !felt_[kind]) return;
+    felt_[kind] = false;
+    // A fault that follows from another is kept with it. Trouble with the device gives its name to both; what was lost is
+    // silent too, and keeps the first.
+    constexpr GateReason kOfTheDevice = GateReason::DeviceNotReady;
+    if (after_ && (out.reason < kOfTheDevice || stores_[writing_].cause >= kOfTheDevice)) return;
+    std::optional<Instant>& last = last_[kind];
     if (last && in.now - *last < kQuiet) return;
     last = in.now;
     after_ = true;

@@ -56,7 +56,8 @@ class FlightRecorder {
     std::size_t writing_ = 0;
     std::atomic<const Store*> handed_{nullptr};
     std::atomic<std::uint64_t> lost_{0};
-    bool felt_ = false;   ///< a force has reached the hand since the last fault
+    /// A force has reached the hand since the last fault of each kind.
+    std::array<bool, kGateSentences.size()> felt_{};
     bool after_ = false;  ///< a fault has happened, and its end is still being kept
     std::size_t ticks_left_ = 0;
     std::array<std::optional<Instant>, kGateSentences.size()> last_{};  ///< fault of each kind

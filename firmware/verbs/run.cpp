@@ -8,6 +8,7 @@
 
 #include "config/scene.h"
 #include "firmware/destination.h"
+#include "firmware/flight_keeper.h"
 #include "firmware/gain_watch.h"
 #include "firmware/graphics.h"
 #include "firmware/hand_orders.h"
@@ -66,7 +67,12 @@ class Run {
         HapticLoopSettings settings;
         settings.law = exhibit.force == ForceChoice::Filter ? ForceLaw::Filter : ForceLaw::Model;
         settings.gate.max_force_n = std::min(scene.haptics.max_force_n, exhibit.max_force_n);
-        if (device_) loop_.emplace(*device_, exchange_, trace_, settings);
+        if (device_) {
+            flights_ = std::make_unique<FlightRecorder>(settings);
+            loop_.emplace(*device_, exchange_, trace_, settings, flights_.get());
+            keep_flights(options.state_dir.empty() ? exhibit.state_dir
+                                                   : std::filesystem::path(options.state_dir));
+        }
         give_orders();
         // status.json goes where it is asked for; by default to the run folder of the service, if there is
         // one.
@@ -83,6 +89,8 @@ class Run {
     void finish() {
         progress_.finish();
         if (recorder_) recorder_->finish();
+        if (flight_keeper_) flight_keeper_->finish();
+        tell_of_flights();
     }
     bool recording_failed() const { return recording_failed_; }
     /// Ten lines on standard output.
@@ -95,6 +103,8 @@ class Run {
     }
     /// The hand may go as far as the coarsest grid lets it.
     void give_orders();
+    void tell_of_flights();
+    void keep_flights(const std::filesystem::path& state_dir);
     /// What is due at a time that is `interval` after the last: a step of the fluid, or rest.
     void go_on(Instant now, Seconds interval);
     void fluid_update(Instant now, Seconds dt);
@@ -128,7 +138,9 @@ class Run {
     long steps_ = 1;          ///< and steps that the fluid takes in it
     TickTrace trace_;
     std::vector<TickRecord> ticks_{4096};
+    std::unique_ptr<FlightRecorder> flights_;
     std::optional<HapticLoop> loop_;
+    std::optional<FlightKeeper> flight_keeper_;
     Views views_;
     std::optional<Recorder> recorder_;
     std::filesystem::path status_file_;
@@ -141,6 +153,16 @@ class Run {
     double clock_s_ = 0.0, wall_s_ = 0.0;
     Progress progress_{"run"};
 };
+
+/// Of faults that happen. Where the exhibit keeps nothing else, it keeps no flights either.
+void Run::keep_flights(const std::filesystem::path& state_dir) {
+    if (is_folder(state_dir)) flight_keeper_.emplace(*flights_, state_dir / "flights");
+}
+
+void Run::tell_of_flights() {
+    if (const auto news = flight_keeper_ ? flight_keeper_->news() : std::nullopt)
+        fmt::print(stderr, "run: {}\n", *news);
+}
 
 void Run::give_orders() {
     Quality coarsest = quality_.first();
@@ -267,6 +289,7 @@ void Run::report(Instant now, bool force) {
     loop_report_ = exchange_.report.newest();
     if (loop_ && show_.figures().steps > 0 && gain_.see(Seconds(show_.figures().fluid_period_s)))
         give_orders();
+    tell_of_flights();
     if (const auto news = gain_.news()) fmt::print(stderr, "run: {}\n", *news);
     if (const auto cause = orders_.cause_gone(now, loop_report_)) {
         if (*cause == GateReason::NotFinite) show_.reset();
@@ -286,7 +309,8 @@ void Run::report(Instant now, bool force) {
                                 show_.guards(),
                                 loop_report_,
                                 cost(),
-                                {gain_.gain(), scene_.haptics.gain, gain_.changes()}});
+                                {gain_.gain(), scene_.haptics.gain, gain_.changes()},
+                                flight_keeper_ ? flight_keeper_->kept() : 0});
 }
 
 /// Both loops on their own threads and the machine's clock, as a visitor meets them.

@@ -132,6 +132,21 @@ int diagnose_falcon(const FalconOptions& options);
 /// 1 too if it did not succeed.
 int calibrate_falcon(const FalconOptions& options);
 
+struct ReplayOptions {
+    std::string flight;  ///< file
+    std::string plot;    ///< PNG file; empty: none
+};
+/// 1 too if the rerun differs.
+int replay(const ReplayOptions& options);
+
+struct RtSelftestOptions {
+    double seconds = 10.0;
+    std::optional<HapticsChoice> haptics;
+    std::string plot;  ///< PNG file; empty: none
+};
+/// 1 too if the loop is not even enough.
+int rt_selftest(const RtSelftestOptions& options);
+
 int check_config(const std::string& file);
 int print_config(const std::string& scene, const std::vector<std::string>& set, bool origin);
 /// The reference of scene files as markdown (docs/scene.md).

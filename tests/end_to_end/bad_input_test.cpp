@@ -160,6 +160,16 @@ TEST_F(BadInput, AboutTheFalconIsNamed) {
     expect_refused({"falcon", "--seconds", "3", "calibrate"}, {"--seconds", "calibrate"});
 }
 
+TEST_F(BadInput, OfAFlightIsNamed) {
+    expect_refused({"replay", missing}, {missing, "cannot be read"});
+    expect_refused({"replay", scene}, {scene, "is not a flight recording"});
+    expect_refused({"replay", folder.write("cut.flight", "eddy flight 1\nversion 0.1.0\n")},
+                   {"cut.flight", "is not complete"});
+    expect_refused({"replay", scene, "--plot", out + ".jpg"}, {"--plot", ".png"});
+    expect_refused({"rt-selftest", "--haptics", "none"}, {"--haptics none"});
+    expect_refused({"rt-selftest", "--seconds", "0"}, {"--seconds"});
+}
+
 TEST_F(BadInput, ToCheckConfigIsToldFromGoodInput) {
     const Ended good = eddy({"check-config", scene});
     EXPECT_EQ(good.status, 0) << good.err;

@@ -25,6 +25,8 @@ const std::vector<Verb> kVerbs{
     {"tune", {"SCENE", "--scene", "--set", "--state-dir", "--show"}},
     {"falcon", {"--firmware", "--serial", "--seconds", "calibrate"}},
     {"haptics", {"--scene", "--grid", "--quick", "--out"}},
+    {"replay", {"FLIGHT", "--plot", ".flight"}},
+    {"rt-selftest", {"--seconds", "--haptics", "--plot", "1.5 ms"}},
     {"check-config", {"FILE"}},
     {"print-config", {"SCENE", "--set", "--origin"}},
 };

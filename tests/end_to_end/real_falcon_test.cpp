@@ -87,5 +87,27 @@ TEST_F(RealFalcon, MayBeUnpluggedWhileTheShowRuns) {
     EXPECT_EQ(haptics["lost"], 1);
 }
 
+TEST_F(RealFalcon, LeavesAFlightOfItsUnpluggingThatRunsAgainBitForBit) {
+    const Ended ended = eddy_with("warm", short_run({"--haptics", "falcon", "--seconds", "5"}), "3.0-3.3");
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_GE(status()["haptics"]["flights"].get<int>(), 1);
+    std::string flight;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "state/flights"))
+        if (entry.path().filename().string().find("-device_") != std::string::npos)
+            flight = entry.path().string();
+    ASSERT_NE(flight, "") << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr(flight + "; eddy replay runs them again"));
+    std::vector<std::string> command{"replay", flight};
+    const std::string picture = folder_ / "flight.png";
+    if (has_gnuplot()) command.insert(command.end(), {"--plot", picture});
+    const Ended replayed = eddy(command);
+    EXPECT_EQ(replayed.status, 0) << replayed.out << replayed.err;
+    EXPECT_THAT(replayed.out, HasSubstr("rerun       the same, bit for bit"));
+    EXPECT_THAT(replayed.out, HasSubstr("cause       device_"));
+    if (has_gnuplot()) {
+        EXPECT_EQ(read_all(picture).substr(1, 3), "PNG");
+    }
+}
+
 }  // namespace
 }  // namespace eddy

@@ -1,9 +1,14 @@
 #include "tests/fuzz/targets.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
+#include "firmware/haptic/flight_file.h"
+#include "firmware/input_error.h"
 #include "hal/haptic/falcon/exchange.h"
 #include "hal/haptic/falcon/firmware_image.h"
 #include "hal/haptic/falcon/protocol.h"
@@ -139,6 +144,34 @@ void fuzz_packets(std::span<const std::uint8_t> bytes) {
     // Left alone, it asks again: what is under way ends or is given up.
     for (int ms = 0; ms < 200; ++ms) exchange.poll(now += std::chrono::milliseconds(1));
     require(exchange.free() || transport.out() == Transfer::Pending, "it does not wait for ever");
+}
+
+void fuzz_flight(std::span<const std::uint8_t> input) {
+    std::string text(input.begin(), input.end());
+    // Chance finds neither 14000 bytes of a state nor a sum.
+    constexpr std::string_view kState = "\nstate!\n";
+    if (const std::size_t at = text.find(kState); at != std::string::npos) {
+        static const std::string state = [] {
+            const std::string none = flight_text(Flight{});
+            const std::size_t begin = none.find("\nstate ");
+            return none.substr(begin, none.find('\n', begin + 1) + 1 - begin);
+        }();
+        text.replace(at, kState.size(), state);
+    }
+    if (const std::size_t end = text.rfind("\nend "); end != std::string::npos) {
+        const std::size_t ticks = text.find(' ', end + 5);
+        if (ticks != std::string::npos)
+            text = text.substr(0, ticks) +
+                   fmt::format(" {:016x}\n", flight_sum(std::string_view(text).substr(0, end + 1)));
+    }
+    try {
+        const std::string again = flight_text(read_flight(text, "f"));
+        require(flight_text(read_flight(again, "f")) == again, "a flight writes back as it was read");
+    } catch (const InputError& e) {
+        const std::string what = e.what();
+        require(what.starts_with("f:") && what.size() < 400, "a refusal names the file and is short");
+        require(what.find('\n') == std::string::npos, "a refusal is one line");
+    }
 }
 
 }  // namespace eddy

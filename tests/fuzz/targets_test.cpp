@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "firmware/haptic/flight_file.h"
 #include "hal/haptic/falcon/protocol.h"
 #include "tests/hal/haptic/synthetic_firmware.h"
 
@@ -85,6 +86,24 @@ TEST(Fuzz, PacketsOfAnyKindDoNotConfuseTheExchange) {
             return bytes;
         },
         fuzz_packets);
+}
+
+TEST(Fuzz, FlightsAreReadOrRefusedInOneLine) {
+    Flight flight;
+    flight.version = flight.written = "x";
+    flight.ticks.resize(3);
+    flight.ticks[1].in.reading = HandleReading{.position_m = {0.01, -0.02, 1e-300}, .buttons = 5};
+    flight.ticks[2].in.fluid.force_n = {1.0 / 3.0, -0.0, 1e300};
+    std::string text = flight_text(flight);
+    const std::size_t state = text.find("\nstate ");
+    text.replace(state, text.find('\n', state + 1) + 1 - state, "\nstate!\n");
+    std::mt19937_64 random(kSeed);
+    for (int i = 0; i < 3000; ++i) {
+        SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", input " << i);
+        Bytes bytes(text.begin(), text.end());
+        if (i > 0) disturb(bytes, random);
+        fuzz_flight(bytes);
+    }
 }
 
 }  // namespace

@@ -135,6 +135,25 @@ TEST(FlightRecorder, KeepsNothingOfADeviceThatWasNeverThere) {
     EXPECT_FALSE(rig.flights.take());
 }
 
+TEST(FlightRecorder, NamesAFlightAfterTheGravestOfTheFaultsInIt) {
+    for (const int between : {200, 1000}) {
+        LoopRig rig;
+        rig.run(2000);
+        rig.fluid_runs = false;
+        rig.run(100 + between);
+        if (between > 500) {
+            EXPECT_EQ(rig.flights.take().value().cause, GateReason::FluidStale);
+        }
+        rig.device.is = HapticState::Absent;
+        rig.run(700);
+        const std::optional<Flight> flight = rig.flights.take();
+        ASSERT_TRUE(flight) << between;
+        EXPECT_EQ(flight->cause, GateReason::DeviceNotReady);
+        EXPECT_EQ(flight->at, Instant(std::chrono::milliseconds(2101 + between)));
+        EXPECT_EQ(flight->ticks.back().in.now - flight->at, Instant(std::chrono::milliseconds(500)));
+    }
+}
+
 TEST(FlightRecorder, GoesOnWhileAFlightIsReadAndCountsWhatItLoses) {
     LoopRig rig;
     rig.run(2000);

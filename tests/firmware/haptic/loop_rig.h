@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "firmware/haptic/loop.h"
-#include "scripted_device.h"
+#include "tests/firmware/haptic/scripted_device.h"
 
 namespace eddy {
 

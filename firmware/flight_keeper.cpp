@@ -1,0 +1,85 @@
+#include "firmware/flight_keeper.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <functional>
+
+#include "firmware/haptic/flight_file.h"
+#include "firmware/text_file.h"
+
+namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::string_view kExtension = ".flight";
+
+std::string utc_now(const char* format) {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[40];
+    const std::size_t length = std::strftime(text, sizeof(text), format, &utc);
+    return {text, length};
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> flights_in(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error))
+        if (entry->path().extension() == kExtension) files.push_back(entry->path());
+    // Their names begin with the time.
+    std::sort(files.begin(), files.end(), std::greater<>());
+    return files;
+}
+
+FlightKeeper::FlightKeeper(FlightRecorder& recorder, std::filesystem::path folder)
+    : recorder_(recorder), folder_(std::move(folder)), thread_([this] { work(); }) {}
+
+void FlightKeeper::finish() {
+    if (!thread_.joinable()) return;
+    stop_ = true;
+    thread_.join();
+    if (auto flight = recorder_.take()) keep(std::move(*flight));
+    if (auto flight = recorder_.take_unfinished()) keep(std::move(*flight));
+}
+
+void FlightKeeper::work() {
+    for (; !stop_; std::this_thread::sleep_for(100ms))
+        if (auto flight = recorder_.take()) keep(std::move(*flight));
+}
+
+void FlightKeeper::keep(Flight flight) {
+    flight.version = EDDY_VERSION;
+    flight.written = utc_now("%Y-%m-%dT%H:%M:%SZ");
+    std::string said;
+    try {
+        make_folder(folder_);
+        const std::string stem = fmt::format("{}-{}", utc_now("%Y%m%dT%H%M%SZ"), to_word(flight.cause));
+        std::filesystem::path file = folder_ / fmt::format("{}{}", stem, kExtension);
+        for (int n = 2; std::filesystem::exists(file); ++n)
+            file = folder_ / fmt::format("{}-{}{}", stem, n, kExtension);
+        replace_text_file(file, flight_text(flight));
+        const std::vector<std::filesystem::path> files = flights_in(folder_);
+        for (std::size_t i = kMostFiles; i < files.size(); ++i) std::filesystem::remove(files[i]);
+        ++kept_;
+        said = fmt::format("{}: the seconds before are in {}; eddy replay runs them again",
+                           to_string(flight.cause), file.string());
+    } catch (const std::exception& e) {
+        said = fmt::format("{}: the seconds before could not be kept: {}", to_string(flight.cause), e.what());
+    }
+    const std::lock_guard lock(news_lock_);
+    news_ = std::move(said);
+}
+
+std::optional<std::string> FlightKeeper::news() {
+    const std::lock_guard lock(news_lock_);
+    return std::exchange(news_, std::nullopt);
+}
+
+}  // namespace eddy
