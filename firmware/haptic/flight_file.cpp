@@ -125,7 +125,13 @@ class Words {
             refuse(fmt::format("'{}' is neither model nor filter", shown(text)));
         x = text == "model" ? ForceLaw::Model : ForceLaw::Filter;
     }
-    static std::string shown(std::string_view text) { return std::string(text.substr(0, 40)); }
+    /// A piece of a file that may be no text at all.
+    static std::string shown(std::string_view text) {
+        std::string piece(text.substr(0, 40));
+        for (char& c : piece)
+            if (c < ' ' || c > '~') c = '?';
+        return piece;
+    }
 
   private:
     std::string_view rest_;
@@ -236,8 +242,8 @@ Flight read_flight(std::string_view text, const std::string& name) {
         throw InputError(
             fmt::format("{}: is not a flight recording: it does not begin with '{}'", name, kFirstLine));
     const std::size_t end = text.rfind("\nend ") + 1;
-    if (end == 0 || !text.ends_with('\n'))
-        throw InputError(fmt::format("{}: is not complete: it has no line that begins with 'end'", name));
+    if (end == 0 || text.find('\n', end) != text.size() - 1)
+        throw InputError(fmt::format("{}: is not complete: its last line does not begin with 'end'", name));
     std::uint64_t ticks = 0;
     {
         Words words(text.substr(end, text.size() - end - 1), name);

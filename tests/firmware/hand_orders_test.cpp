@@ -60,5 +60,26 @@ TEST(HandOrders, GivenAnewKeepTheirCountOfResets) {
     EXPECT_EQ(exchange.orders.newest().gain, 3.0);
 }
 
+TEST(HandOrders, GivenAnewForgetNeitherAStopNorARestart) {
+    HapticExchange exchange;
+    HandOrders orders(exchange);
+    orders.stop(true);
+    orders.restart();
+    orders.give({.enabled = true});
+    EXPECT_TRUE(exchange.orders.newest().enabled);
+    EXPECT_TRUE(exchange.orders.newest().stop);
+    EXPECT_EQ(exchange.orders.newest().restarts, 1u);
+    orders.stop(false);
+    EXPECT_FALSE(exchange.orders.newest().stop);
+    EXPECT_TRUE(exchange.orders.newest().enabled);
+}
+
+TEST(HandOrders, NeverReleaseAStopByThemselves) {
+    HapticExchange exchange;
+    HandOrders orders(exchange);
+    for (int second = 0; second < 60; ++second)
+        EXPECT_FALSE(orders.cause_gone(second * 1s, report_of(GateReason::Stopped)));
+}
+
 }  // namespace
 }  // namespace eddy

@@ -238,6 +238,7 @@ TEST(FlightFile, SaysWhatIsWrongWithAFile) {
     EXPECT_THAT(refusal(""), HasSubstr("f.flight: is not a flight recording"));
     EXPECT_THAT(refusal("t_s,x_m\n0,1\n"), HasSubstr("is not a flight recording"));
     EXPECT_THAT(refusal(good.substr(0, good.size() / 2)), HasSubstr("is not complete"));
+    EXPECT_THAT(refusal(good + "more\n"), HasSubstr("is not complete"));
     std::string changed = good;
     changed[changed.find("tick ") + 5] ^= 1;
     EXPECT_THAT(refusal(changed), HasSubstr("was changed since it was written, or damaged"));
