@@ -33,7 +33,7 @@ bool plot_flight(const Flight& flight, const std::filesystem::path& png) {
             "plot $ticks using 1:2 with lines lc rgb '#b0b0b0' title 'of the fluid', \\\n"
             "     $ticks using 1:3 with lines lc rgb '#2050c0' title 'wanted', \\\n"
             "     $ticks using 1:4 with lines lw 2 lc rgb '#d03020' title 'sent'\n"
-            "set ylabel 'handle [mm]'\n"
+            "set ylabel 'body, at the handle [mm]'\n"
             "plot $ticks using 1:5 with lines lc rgb '#2050c0' title 'x, right', \\\n"
             "     $ticks using 1:6 with lines lc rgb '#208040' title 'y, up', \\\n"
             "     $ticks using 1:7 with lines lc rgb '#c08020' title 'z, to the visitor'\n"

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "firmware/destination.h"
 #include "firmware/flight_plot.h"
@@ -37,14 +38,13 @@ std::string situation(const FlightTick& tick) {
 std::vector<std::string> timeline(const Flight& flight) {
     std::vector<std::string> lines;
     std::string before;
-    double most_n = 0.0;
     for (const FlightTick& tick : flight.ticks) {
         std::string now = situation(tick);
-        most_n = glm::length(tick.out.force_n);
+        const double sent_n = glm::length(tick.out.force_n);
         const bool late = tick.step >= kLongTick;
         if (now == before && !late) continue;
         lines.push_back(fmt::format(
-            "{:+9.3f}  {}, {:.2f} N{}", Seconds(tick.in.now - flight.at).count(), now, most_n,
+            "{:+9.3f}  {}, {:.2f} N{}", Seconds(tick.in.now - flight.at).count(), now, sent_n,
             late ? fmt::format("; {:.1f} ms after the tick before", Seconds(tick.step).count() * 1e3) : ""));
         before = std::move(now);
     }
@@ -58,7 +58,9 @@ void print_summary(const Flight& flight) {
     for (const FlightTick& tick : flight.ticks) {
         most_n = std::max(most_n, glm::length(tick.out.force_n));
         longest = std::max(longest, tick.step);
-        if (tick.in.now <= flight.at) silence = std::max(silence, tick.in.silence);
+        // Before its first reply a device is silent for ever.
+        if (tick.in.now <= flight.at && std::isfinite(tick.in.silence.count()))
+            silence = std::max(silence, tick.in.silence);
     }
     const Seconds before = flight.at - flight.ticks.front().in.now;
     const Seconds after = flight.ticks.back().in.now - flight.at;
