@@ -4,12 +4,12 @@
 #include <bit>
 #include <limits>
 
-#include "allocation_counter.h"
 #include "firmware/haptic/flight_file.h"
 #include "firmware/haptic/flight_recorder.h"
 #include "firmware/haptic/flight_rerun.h"
 #include "firmware/input_error.h"
 #include "loop_rig.h"
+#include "tests/allocations.h"
 
 namespace eddy {
 namespace {

@@ -12,10 +12,10 @@
 #include <csignal>
 #include <cstddef>
 
-#include "allocation_counter.h"
 #include "hal/haptic/emulated/make_emulated_falcon.h"
 #include "hal/haptic/emulated/person_motion.h"
 #include "loop_rig.h"
+#include "tests/allocations.h"
 
 // A tick of the loop asks nothing of the operating system and takes no lock. That it calls no GL is for the linker to see: the
 // library of the loop knows none of it.
