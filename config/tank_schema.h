@@ -63,9 +63,11 @@ void describe(Visitor& v, Scene::Smoke& s) {
 
 template <class Visitor>
 void describe(Visitor& v, Scene::VorticityConfinement& c) {
-    v.required("strength_1_s", c.strength_1_s,
-               "0 is off; vortices fed in proportion to it and to the width of a cell; more than a quarter in a "
-               "step (0.25 / dt_s) counts as that", between(0, 1e3));
+    v.required(
+        "strength_1_s", c.strength_1_s,
+        "0 is off; vortices fed in proportion to it and to the width of a cell; more than a quarter in a "
+        "step (0.25 / dt_s) counts as that",
+        between(0, 1e3));
 }
 
 template <class Visitor>

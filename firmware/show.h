@@ -56,6 +56,8 @@ class Show {
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
     void publish(bool wait);
 
+    /// The newest pose of the hand.
+    const PoseSnapshot& pose() { return exchange_.pose.newest(); }
     /// What the hand gets of the force, for the figures: at first the scene's own.
     void set_gain(double gain) { gain_ = gain; }
 

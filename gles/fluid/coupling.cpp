@@ -207,8 +207,7 @@ void Coupling::draw_potentials(const std::vector<BodyState>& states, const FaceF
     std::vector<Box> touched = boxes;
     touched.insert(touched.end(), boxes_before_.begin(), boxes_before_.end());
     boxes_before_ = boxes;
-    const Pressure::Work work{
-        .cycles = kCycles + (cold_ ? kColdCycles : 0), .cut = boxes, .rough = boxes};
+    const Pressure::Work work{.cycles = kCycles + (cold_ ? kColdCycles : 0), .cut = boxes, .rough = boxes};
     cold_ = false;
     for (Triple& triple : triples_) {
         const std::size_t body = bodies_[triple.body].index;

@@ -193,14 +193,13 @@ Field<Cells4> Pressure::follow(Field<Cells4> phi, const std::vector<Displacement
         const Box box{glm::ivec3(glm::floor(body.centre - reach)),
                       glm::ivec3(glm::ceil(body.centre + reach))};
         const Region region = Region::packed({box.intersect({glm::ivec3(0), levels_[0].cells})});
-        follow_->draw(
-            {{"phi", &phi.texture()}},
-            {{"centre", body.centre},
-             {"moved", body.moved},
-             {"inner", 1.5f * body.radius},
-             {"reach", reach},
-             {"most_phi", most_phi}},
-            {&moved.texture()}, region);
+        follow_->draw({{"phi", &phi.texture()}},
+                      {{"centre", body.centre},
+                       {"moved", body.moved},
+                       {"inner", 1.5f * body.radius},
+                       {"reach", reach},
+                       {"most_phi", most_phi}},
+                      {&moved.texture()}, region);
         copy_back_->draw({{"field", &moved.texture()}}, {}, {&phi.texture()}, region);
     }
     return phi;
@@ -264,8 +263,8 @@ Field<Cells4> Pressure::least_residual_cycles(const std::optional<Field<Cells4>>
                                               const Field<Cells4>& b, const Work& work) {
     Field<Cells4> phi(*gpu_, levels_[0].cells, Format::RGBA32F);
     if (guess)
-        keep_->draw({{"phi", &guess->texture()}},
-                    {{"scale", work.guess_scale}, {"most_phi", work.most_phi}}, {&phi.texture()});
+        keep_->draw({{"phi", &guess->texture()}}, {{"scale", work.guess_scale}, {"most_phi", work.most_phi}},
+                    {&phi.texture()});
     else
         clear(phi.texture());
     Field<Cells4> r = residual(phi, b);

@@ -38,11 +38,11 @@ class Pressure {
     Field<Cells4> follow(Field<Cells4> phi, const std::vector<Displacement>& since,
                          float most_phi = kNoLimit);
     struct Work {
-        int cycles = 2;            ///< V-cycles
-        float guess_scale = 1.0f;  ///< the first guess is this times phi, which grows with dt
+        int cycles = 2;             ///< V-cycles
+        float guess_scale = 1.0f;   ///< the first guess is this times phi, which grows with dt
         float most_phi = kNoLimit;  ///< of the guess; see kept() in guard.glsl
-        std::vector<Box> cut{};    ///< cells whose fractions may not be 1
-        std::vector<Box> rough{};  ///< those, and all where b jumps from cell to cell: swept twice more
+        std::vector<Box> cut{};     ///< cells whose fractions may not be 1
+        std::vector<Box> rough{};   ///< those, and all where b jumps from cell to cell: swept twice more
     };
     /// A better phi for right-hand side b.
     Field<Cells4> solve(Field<Cells4> phi, const Field<Cells4>& b, const Work& work);

@@ -1,0 +1,160 @@
+#include "firmware/exhibit/act.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A fluid step covers the time since the last one, but never more: after a stall the fluid loses time
+/// instead of leaping.
+constexpr Seconds kLongestStep{0.1};
+/// Of each stage's times; the page and the summary take their median.
+constexpr std::size_t kSamples = 200;
+/// While nothing moves the fluid is computed this often, to see whether that is still so.
+constexpr Instant kRestPeriod = 500ms;
+
+double longest_side_m(const Scene& scene) {
+    const glm::dvec3& size_m = scene.tank.size_m;
+    return std::max({size_m.x, size_m.y, size_m.z});
+}
+
+}  // namespace
+
+Act::Act(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange, Setup setup)
+    : gpu_(gpu),
+      scene_(scene),
+      setup_(std::move(setup)),
+      quality_(gpu, scene, setup_.quality),
+      show_(gpu, scene, exchange, quality_.first()),
+      stopwatch_(gpu),
+      watch_(longest_side_m(scene)),
+      moves_by_itself_(moves_by_itself(scene)),
+      views_(gpu, scene, setup_.shows_cost),
+      gain_(scene.haptics.gain, scene.haptics.workspace_scale) {
+    stopwatch_.keep_last(kSamples);
+    if (setup_.has_hand) to_prepare_.push_back([this] { gain_.learn(show_.slopes()); });
+    for (const Quality& quality : quality_.all())
+        to_prepare_.push_back([this, quality] { make_ready(quality, Instant(0)); });
+    to_prepare_.push_back([this] { show_.warm_up(quality_.all()); });
+}
+
+bool Act::prepare() {
+    if (to_prepare_.empty()) return false;
+    to_prepare_.back()();
+    to_prepare_.pop_back();
+    gles::finish();
+    return !to_prepare_.empty();
+}
+
+void Act::begin(HandOrders& orders) {
+    orders_ = &orders;
+    gain_.see(Seconds(scene_.solver.dt_s));
+    give_orders();
+}
+
+/// The hand may go as far as the coarsest grid lets it.
+void Act::give_orders() {
+    Quality coarsest = quality_.first();
+    for (const Quality& quality : quality_.all())
+        if (quality.cells < coarsest.cells) coarsest = quality;
+    HapticOrders orders = orders_for(with_quality(scene_, coarsest), show_.fluid().setup());
+    orders.gain = gain_.gain();
+    show_.set_gain(orders.gain);
+    orders_->give(orders);
+}
+
+void Act::make_ready(const Quality& quality, Instant now) {
+    const gles::Fluid& fluid = show_.make_ready(quality);
+    if (setup_.has_picture) views_.make_ready(fluid, show_.bodies(), now, [this] { return cost(); });
+}
+
+CostFigures Act::cost() const {
+    CostFigures figures = cost_figures(scene_, show_, stopwatch_, step_rate_);
+    figures.force_error = quality_.force_error(show_.quality());
+    figures.quality_down = quality_.steps_down();
+    figures.quality_up = quality_.steps_up();
+    figures.quality_note = quality_.note();
+    return figures;
+}
+
+void Act::go_on(Instant now, Seconds interval) {
+    const Seconds elsewhere = std::exchange(elsewhere_, Seconds(0.0));
+    const PoseSnapshot pose = show_.pose();
+    watch_.see(now, pose.known ? std::optional(pose.position_m) : std::nullopt, pose.buttons);
+    if (auto speed_m_s = show_.figures().fluid_speed_m_s; speed_m_s && !moves_by_itself_) {
+        for (const gles::BodyState& body : show_.bodies())
+            speed_m_s = std::max(*speed_m_s, glm::length(body.velocity_m_s));
+        watch_.all_moves_at(*speed_m_s);
+    }
+    if (watch_.nobody_here()) beside_the_fluid([&] { use_the_quiet(now); });
+    if (watch_.may_rest() && now < rest_ends_) {
+        show_.rest(now);
+        return;
+    }
+    rest_ends_ = now + kRestPeriod;
+    const QualityControl::Interval since_last{interval, elsewhere, steps_};
+    fluid_update(now, std::min(interval, kLongestStep));
+    if (const auto change = quality_.update(now, since_last, pose.buttons)) change_quality(*change, now);
+}
+
+Seconds Act::beside_the_fluid(const std::function<void()>& work) {
+    gles::finish();  // of the fluid's step: that is its own
+    const RealClock clock;
+    work();
+    const Seconds took = clock.now();
+    elsewhere_ += took;
+    return took;
+}
+
+void Act::fluid_update(Instant now, Seconds dt) {
+    const bool measure = show_.figures().steps % kMeasureEvery == kMeasureEvery / 2 || watch_.may_rest();
+    stopwatch_.set_on(measure);
+    // Not the same step: to look into one takes time.
+    const bool time = show_.figures().steps % kMeasureEvery == 0;
+    const double start_ms = time ? Stopwatch::now().wall_ms : 0.0;
+    const long before = show_.fluid().steps();
+    show_.update(now, dt, measure);
+    steps_ = std::max(show_.fluid().steps() - before, 1L);
+    if (time && !measure)
+        quality_.step_took((Stopwatch::now().wall_ms - start_ms) / static_cast<double>(steps_));
+    step_rate_.add_step();
+    stopwatch_.set_on(false);
+}
+
+void Act::change_quality(const QualityControl::Change& change, Instant now) {
+    make_ready(change.quality, now);
+    show_.set_quality(change.quality);
+    give_orders();
+    stopwatch_.forget();
+    news_.push_back(fmt::format("{} from now on: {}", describe(change.quality), change.reason));
+}
+
+void Act::use_the_quiet(Instant now) {
+    for (const Quality& quality : quality_.all())
+        if (!show_.is_ready(quality)) {
+            make_ready(quality, now);
+            give_orders();
+            return;
+        }
+    if (const auto text = quality_.work()) news_.push_back(*text);
+}
+
+const gles::Renderer& Act::draw(Instant now) {
+    stopwatch_.set_on(true);
+    View& view = views_.of(show_.fluid());
+    view.draw(show_.fluid(), show_.bodies(), now, [this] { return cost(); });
+    stopwatch_.set_on(false);
+    return view.renderer();
+}
+
+void Act::adjust_gain() {
+    if (!setup_.has_hand || show_.figures().steps == 0) return;
+    if (gain_.see(Seconds(show_.figures().fluid_period_s))) give_orders();
+    if (const auto news = gain_.news()) news_.push_back(*news);
+}
+
+}  // namespace eddy
