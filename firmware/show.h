@@ -56,6 +56,10 @@ class Show {
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
     void publish(bool wait);
 
+    /// Goes on counting answers and energy where this show ended: the haptic loop goes on too. Before the first update.
+    void follow(const Show& before);
+    /// Given to the haptic loop so far.
+    std::uint64_t answers() const { return answer_.sequence; }
     /// The newest pose of the hand.
     const PoseSnapshot& pose() { return exchange_.pose.newest(); }
     /// What the hand gets of the force, for the figures: at first the scene's own.

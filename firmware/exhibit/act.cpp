@@ -50,10 +50,24 @@ bool Act::prepare() {
     return !to_prepare_.empty();
 }
 
-void Act::begin(HandOrders& orders) {
+void Act::begin(HandOrders& orders, const Act* before) {
     orders_ = &orders;
+    if (before) show_.follow(before->show_);
+    stale_answers_ = show_.answers();
     gain_.see(Seconds(scene_.solver.dt_s));
     give_orders();
+}
+
+void Act::reset() {
+    show_.reset();
+    stale_answers_ = show_.answers();
+    give_orders();
+}
+
+void Act::publish(bool wait) {
+    const std::uint64_t before = show_.answers();
+    show_.publish(wait);
+    if (before == stale_answers_ && show_.answers() > before) give_orders();
 }
 
 /// The hand may go as far as the coarsest grid lets it.
@@ -63,6 +77,7 @@ void Act::give_orders() {
         if (quality.cells < coarsest.cells) coarsest = quality;
     HapticOrders orders = orders_for(with_quality(scene_, coarsest), show_.fluid().setup());
     orders.gain = gain_.gain();
+    orders.enabled = show_.answers() > stale_answers_;
     show_.set_gain(orders.gain);
     orders_->give(orders);
 }

@@ -32,20 +32,23 @@ class Act {
     /// A piece of what is to be done before the act may begin: everything is drawn once, so that the driver compiles its shaders
     /// now. False when nothing is left.
     bool prepare();
-    /// From now on this act is played, and has a say in what the hand is told.
-    void begin(HandOrders& orders);
+    /// From now on this act is played, and has a say in what the hand is told; `before`, if any, no more. There is no force until
+    /// this fluid has answered.
+    void begin(HandOrders& orders, const Act* before = nullptr);
 
     /// What is due at a time that is `interval` after the last: a step of the fluid, or rest. A change of quality is told
     /// in `news`.
     void go_on(Instant now, Seconds interval);
     /// Other work of this thread: it is not the fluid's fault when the next step is late for it. Returns what it took.
     Seconds beside_the_fluid(const std::function<void()>& work);
+    /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
+    void publish(bool wait);
     /// Draws the fluid as it is now.
     const gles::Renderer& draw(Instant now);
     /// The gain follows the rate at which the fluid answers.
     void adjust_gain();
-    /// Back to the start of the scene.
-    void reset() { show_.reset(); }
+    /// Back to the start of the scene. There is no force until the fluid has answered.
+    void reset();
 
     Show& show() { return show_; }
     const Show& show() const { return show_; }
@@ -80,6 +83,7 @@ class Act {
     GainWatch gain_;
     std::vector<std::function<void()>> to_prepare_;  ///< the next last
     HandOrders* orders_ = nullptr;                   ///< while it is played
+    std::uint64_t stale_answers_ = 0;                ///< up to this one, of before a beginning
     Instant rest_ends_{0};
     Seconds elsewhere_{0.0};  ///< of the interval until the next update: spent beside the fluid,
     long steps_ = 1;          ///< and steps that the fluid takes in it

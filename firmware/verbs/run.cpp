@@ -170,12 +170,12 @@ void Run::real() {
         now = clock.now();
         act_.go_on(now, now - last);
         last = now;
-        act_.show().publish(false);
+        act_.publish(false);
         if (recorder_ && now >= frame_due_) {
             const Seconds took = act_.beside_the_fluid([&] { record_frame(now); });
             frame_due_ = now + std::max(frame_period(), instant(took / kRenderShare));
         }
-        act_.show().publish(false);
+        act_.publish(false);
         follow_hand();
         report(now);
     }
@@ -199,7 +199,7 @@ void Run::stepped() {
         clock.sleep_until(t);
         hand_.tick(clock.now());
         if (t + kTick < fluid_due) continue;
-        act_.show().publish(act_.show().figures().steps > 0);
+        act_.publish(act_.show().figures().steps > 0);
         act_.go_on(fluid_due, Seconds(period()));
         if (recorder_ && fluid_due >= frame_due_) {
             record_frame(fluid_due);
@@ -211,7 +211,7 @@ void Run::stepped() {
     }
     hand_.end();
     follow_hand();
-    act_.show().publish(true);
+    act_.publish(true);
     clock_s_ = Seconds(clock.now()).count();
     wall_s_ = Seconds(wall.now()).count();
     report(clock.now(), true);
