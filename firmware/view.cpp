@@ -1,6 +1,7 @@
 #include "firmware/view.h"
 
 #include "firmware/cost_page.h"
+#include "firmware/exhibit/caption.h"
 #include "firmware/render_setup.h"
 
 namespace eddy {
@@ -14,13 +15,16 @@ constexpr Instant kPageStays = 1s;
 }  // namespace
 
 View::View(gles::Gpu& gpu, const gles::FluidSetup& fluid, const Scene& scene, bool shows_cost)
-    : renderer_(gpu, fluid, render_setup(scene)) {
+    : renderer_(gpu, fluid, render_setup(scene)), caption_(gpu, renderer_.picture()) {
     if (shows_cost) overlay_.emplace(gpu, renderer_.picture());
 }
 
 void View::draw(const gles::Fluid& fluid, const std::vector<gles::BodyState>& bodies, Instant now,
-                const std::function<CostFigures()>& figures) {
+                const std::function<CostFigures()>& figures, const std::string& caption) {
     renderer_.draw(fluid, bodies);
+    if (caption != sentence_) caption_page_ = caption_page(caption, renderer_.picture().size());
+    sentence_ = caption;
+    caption_.draw(caption_page_);
     if (!overlay_) return;
     if (now >= page_due_) {
         page_ = cost_page(figures(), renderer_.picture().size());

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string>
 
 #include "firmware/cost_figures.h"
 #include "gles/render/renderer.h"
@@ -13,15 +14,17 @@ class View {
     /// `shows_cost`: the page "What does accuracy cost?" lies over it.
     View(gles::Gpu& gpu, const gles::FluidSetup& fluid, const Scene& scene, bool shows_cost);
 
-    /// `figures` are asked for when the page is due.
+    /// `figures` are asked for when the page is due; `caption`, if any, stands under the picture.
     void draw(const gles::Fluid& fluid, const std::vector<gles::BodyState>& bodies, Instant now,
-              const std::function<CostFigures()>& figures);
+              const std::function<CostFigures()>& figures, const std::string& caption = {});
     const gles::Renderer& renderer() const { return renderer_; }
 
   private:
     gles::Renderer renderer_;
     std::optional<gles::Text> overlay_;
-    gles::Page page_;
+    gles::Text caption_;
+    std::string sentence_;
+    gles::Page page_, caption_page_;
     Instant page_due_{0};
 };
 

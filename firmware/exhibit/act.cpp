@@ -158,10 +158,11 @@ void Act::use_the_quiet(Instant now) {
     if (const auto text = quality_.work()) news_.push_back(*text);
 }
 
-const gles::Renderer& Act::draw(Instant now) {
+const gles::Renderer& Act::draw(Instant now, const std::string& caption) {
     stopwatch_.set_on(true);
     View& view = views_.of(show_.fluid());
-    view.draw(show_.fluid(), show_.bodies(), now, [this] { return cost(); });
+    view.draw(
+        show_.fluid(), show_.bodies(), now, [this] { return cost(); }, caption);
     stopwatch_.set_on(false);
     return view.renderer();
 }

@@ -43,8 +43,8 @@ class Act {
     Seconds beside_the_fluid(const std::function<void()>& work);
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
     void publish(bool wait);
-    /// Draws the fluid as it is now.
-    const gles::Renderer& draw(Instant now);
+    /// Draws the fluid as it is now, with a sentence under it, if any.
+    const gles::Renderer& draw(Instant now, const std::string& caption = {});
     /// The gain follows the rate at which the fluid answers.
     void adjust_gain();
     /// Back to the start of the scene. There is no force until the fluid has answered.

@@ -6,6 +6,7 @@
 #include "config/scene.h"
 #include "firmware/destination.h"
 #include "firmware/exhibit/act.h"
+#include "firmware/exhibit/caption.h"
 #include "firmware/exhibit/hand_side.h"
 #include "firmware/graphics.h"
 #include "firmware/progress.h"
@@ -97,6 +98,7 @@ class Run {
     std::optional<Recorder> recorder_;
     std::filesystem::path status_file_;
     Instant status_due_{0}, frame_due_{0};
+    bool hand_seen_ = false;
     bool recording_failed_ = false;
     double clock_s_ = 0.0, wall_s_ = 0.0;
     Progress progress_{"run"};
@@ -112,7 +114,10 @@ void Run::warm_up() {
 }
 
 void Run::record_frame(Instant now) {
-    const gles::Renderer& picture = act_.draw(now);
+    const LoopReport& hand = hand_.report();
+    hand_seen_ = hand_seen_ || hand.device == HapticState::Ready;
+    const gles::Renderer& picture =
+        act_.draw(now, caption({hand_.has_device(), hand.device, hand.reason, hand_seen_, false}));
     try {
         recorder_->add(picture, act_.scene().render.width_px, act_.scene().render.height_px);
     } catch (const std::runtime_error& e) {
