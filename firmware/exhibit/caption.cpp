@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "firmware/exhibit/wrapped.h"
+
 namespace eddy {
 namespace {
 
@@ -11,27 +13,6 @@ namespace {
 constexpr double kEmsOfHeight = 20.0, kEmsOfWidth = 28.0;  // the picture
 constexpr double kMargin = 0.6;
 constexpr double kLine = 1.3;
-
-/// The words on as many lines as it takes so that none is wider.
-std::vector<std::string> lines_of(const std::string& words, double ems) {
-    const gles::Font font;
-    std::vector<std::string> lines;
-    std::string line;
-    for (std::size_t at = 0; at < words.size();) {
-        const std::size_t end = std::min(words.find(' ', at), words.size());
-        const std::string word = words.substr(at, end - at);
-        const std::string longer = line.empty() ? word : line + " " + word;
-        if (!line.empty() && font.width_px(longer, 1.0) > ems) {
-            lines.push_back(line);
-            line = word;
-        } else {
-            line = longer;
-        }
-        at = end + 1;
-    }
-    if (!line.empty()) lines.push_back(line);
-    return lines;
-}
 
 }  // namespace
 
@@ -71,7 +52,7 @@ gles::Page caption_page(const std::string& sentence, const glm::ivec2& picture_p
     if (sentence.empty()) return page;
     const double em_px = std::min(picture_px.y / kEmsOfHeight, picture_px.x / kEmsOfWidth);
     const double most_ems = picture_px.x / em_px - 2.0 * kMargin - 1.0;
-    const std::vector<std::string> lines = lines_of(sentence, most_ems);
+    const std::vector<std::string> lines = wrapped(sentence, most_ems);
     double widest = 0.0;
     const gles::Font font;
     for (const std::string& line : lines) widest = std::max(widest, font.width_px(line, 1.0));

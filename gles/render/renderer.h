@@ -7,6 +7,7 @@
 #include "gles/fluid/fluid.h"
 #include "gles/pass.h"
 #include "gles/render/camera.h"
+#include "gles/render/window.h"
 
 namespace eddy::gles {
 
@@ -38,9 +39,7 @@ class Renderer {
     /// RGBA8, first row at the bottom.
     const Texture& picture() const { return *picture_; }
     /// Waits for the GPU. Three bytes a pixel, first row at the top.
-    std::vector<std::uint8_t> rgb() const;
-    /// Copies the picture to the window (the default framebuffer) as large as fits, black beside it.
-    void show(int width_px, int height_px) const;
+    std::vector<std::uint8_t> rgb() const { return rgb_from_top(gpu_, *picture_); }
     /// Key light (r) and fill light (g) that arrive in each cell of half the grid (of ceil(n / 2) cells), 0
     /// .. 1, as last drawn.
     const Field<Cells>& light() const { return light_; }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
+#include "gles/render/window.h"
 #include "tests/gles/render/rig.h"
 
 namespace eddy::gles {
@@ -211,7 +212,7 @@ TEST(Picture, IsShownAsLargeAsFitsInTheMiddleOfTheWindow) {
     const StillSmoke still(gpu, setup, kNone);
     Renderer renderer(gpu, setup, kSmall);
     renderer.draw(still, {ball_at({12.0, 10.0, 11.0})});
-    renderer.show(400, 240);  // the picture, 4 : 3, fills 320 x 240 in the middle
+    show_in_window(gpu, renderer.picture(), {400, 240});  // the picture, 4 : 3, fills 320 x 240 in the middle
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     std::vector<std::uint8_t> window(4 * 400 * 240);
     glReadPixels(0, 0, 400, 240, GL_RGBA, GL_UNSIGNED_BYTE, window.data());
