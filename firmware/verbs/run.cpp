@@ -5,9 +5,9 @@
 
 #include "config/scene.h"
 #include "firmware/destination.h"
-#include "firmware/exhibit/act.h"
 #include "firmware/exhibit/caption.h"
 #include "firmware/exhibit/hand_side.h"
+#include "firmware/exhibit/playbill.h"
 #include "firmware/graphics.h"
 #include "firmware/progress.h"
 #include "firmware/recorder.h"
@@ -60,11 +60,12 @@ class Run {
           hand_(std::move(device.device), std::move(device.name), loop_settings(exhibit, scene),
                 flights_folder(folder_of(options.state_dir, exhibit.state_dir))),
           graphics_(std::move(graphics)),
-          act_(graphics_->gpu, scene, hand_.exchange(),
-               {.quality = quality_setup(options, exhibit, scene),
-                .has_picture = !options.record.empty(),
-                .has_hand = hand_.has_device(),
-                .shows_cost = options.overlay.value_or(exhibit.overlay) == OverlayChoice::Cost}) {
+          playbill_(graphics_->gpu, hand_) {
+        playbill_.announce(scene,
+                           {.quality = quality_setup(options, exhibit, scene),
+                            .has_picture = !options.record.empty(),
+                            .has_hand = hand_.has_device(),
+                            .shows_cost = options.overlay.value_or(exhibit.overlay) == OverlayChoice::Cost});
         if (!options.record.empty()) recorder_.emplace(options.record);
         // status.json goes where it is asked for; by default to the run folder of the service, if there is
         // one.
@@ -83,8 +84,10 @@ class Run {
     void summarise() const;
 
   private:
+    Act& act() { return playbill_.act(); }
+    const Act& act() const { return playbill_.act(); }
     Instant end() const { return options_.seconds ? instant(Seconds(*options_.seconds)) : Instant::max(); }
-    Instant period() const { return instant(Seconds(act_.scene().solver.dt_s)); }
+    Instant period() const { return instant(Seconds(act().scene().solver.dt_s)); }
     Instant frame_period() const { return instant(Seconds(1.0 / options_.frames_per_s)); }
     void record_frame(Instant now);
     void follow_hand();
@@ -94,7 +97,7 @@ class Run {
     RunOptions options_;
     HandSide hand_;
     std::unique_ptr<Graphics> graphics_;
-    Act act_;
+    Playbill playbill_;
     std::optional<Recorder> recorder_;
     std::filesystem::path status_file_;
     Instant status_due_{0}, frame_due_{0};
@@ -105,21 +108,20 @@ class Run {
 };
 
 void Run::warm_up() {
-    const RealClock clock;
-    while (act_.prepare()) {
-    }
-    act_.begin(hand_.orders());
-    if (const Seconds took = clock.now(); took > kSlowWarmUp)
-        log(fmt::format("the driver took {:.1f} s to prepare its shaders", took.count()));
+    std::optional<Playbill::News> news;
+    while (!news) news = playbill_.work();
+    if (!news->began) throw gles::GlError(news->failed);
+    if (news->prepared > kSlowWarmUp)
+        log(fmt::format("the driver took {:.1f} s to prepare its shaders", news->prepared.count()));
 }
 
 void Run::record_frame(Instant now) {
     const LoopReport& hand = hand_.report();
     hand_seen_ = hand_seen_ || hand.device == HapticState::Ready;
     const gles::Renderer& picture =
-        act_.draw(now, caption({hand_.has_device(), hand.device, hand.reason, hand_seen_, false}));
+        act().draw(now, caption({hand_.has_device(), hand.device, hand.reason, hand_seen_, false}));
     try {
-        recorder_->add(picture, act_.scene().render.width_px, act_.scene().render.height_px);
+        recorder_->add(picture, act().scene().render.width_px, act().scene().render.height_px);
     } catch (const std::runtime_error& e) {
         // A full disk must not stop the show.
         fmt::print(stderr, "recording stopped: {}\n", e.what());
@@ -136,32 +138,32 @@ void Run::follow_hand() {
 
 void Run::tell() {
     if (const auto news = hand_.flight_news()) log(*news);
-    for (const std::string& line : act_.news()) log(line);
+    for (const std::string& line : act().news()) log(line);
 }
 
 void Run::report(Instant now, bool force) {
-    act_.adjust_gain();
+    act().adjust_gain();
     tell();
     if (const auto cause = hand_.orders().cause_gone(now, hand_.report())) {
-        if (*cause == GateReason::NotFinite) act_.reset();
+        if (*cause == GateReason::NotFinite) act().reset();
         hand_.orders().release_latch();
     }
-    const ShowFigures& figures = act_.show().figures();
+    const ShowFigures& figures = act().show().figures();
     if (options_.seconds)
         progress_.show(Seconds(now).count(), *options_.seconds, fmt::format("{} fluid steps", figures.steps));
     if (status_file_.empty() || (now < status_due_ && !force)) return;
     status_due_ = now + 1s;
-    const GainWatch& gain = act_.gain();
-    write_status(status_file_, {act_.scene().title,
+    const GainWatch& gain = act().gain();
+    write_status(status_file_, {act().scene().title,
                                 graphics_->gpu.capabilities().renderer,
                                 graphics_->display->describe(),
                                 hand_.name(),
                                 Seconds(now).count(),
                                 figures,
-                                act_.show().guards(),
+                                act().show().guards(),
                                 hand_.report(),
-                                act_.cost(),
-                                {gain.gain(), act_.scene().haptics.gain, gain.changes()},
+                                act().cost(),
+                                {gain.gain(), act().scene().haptics.gain, gain.changes()},
                                 hand_.flights_kept()});
 }
 
@@ -173,14 +175,14 @@ void Run::real() {
     while (!asked_to_stop() && now < end()) {
         clock.sleep_until(last + period());
         now = clock.now();
-        act_.go_on(now, now - last);
+        act().go_on(now, now - last);
         last = now;
-        act_.publish(false);
+        act().publish(false);
         if (recorder_ && now >= frame_due_) {
-            const Seconds took = act_.beside_the_fluid([&] { record_frame(now); });
+            const Seconds took = act().beside_the_fluid([&] { record_frame(now); });
             frame_due_ = now + std::max(frame_period(), instant(took / kRenderShare));
         }
-        act_.publish(false);
+        act().publish(false);
         follow_hand();
         report(now);
     }
@@ -204,8 +206,8 @@ void Run::stepped() {
         clock.sleep_until(t);
         hand_.tick(clock.now());
         if (t + kTick < fluid_due) continue;
-        act_.publish(act_.show().figures().steps > 0);
-        act_.go_on(fluid_due, Seconds(period()));
+        act().publish(act().show().figures().steps > 0);
+        act().go_on(fluid_due, Seconds(period()));
         if (recorder_ && fluid_due >= frame_due_) {
             record_frame(fluid_due);
             frame_due_ += frame_period();
@@ -216,7 +218,7 @@ void Run::stepped() {
     }
     hand_.end();
     follow_hand();
-    act_.publish(true);
+    act().publish(true);
     clock_s_ = Seconds(clock.now()).count();
     wall_s_ = Seconds(wall.now()).count();
     report(clock.now(), true);
@@ -230,17 +232,17 @@ void Run::finish() {
 }
 
 void Run::summarise() const {
-    const ShowFigures& f = act_.show().figures();
+    const ShowFigures& f = act().show().figures();
     const LoopReport& loop = hand_.report();
     const auto print_stages = [&] {
         std::string text;
-        for (const std::string& stage : act_.stopwatch().stages())
+        for (const std::string& stage : act().stopwatch().stages())
             text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", stage,
-                                median(act_.stopwatch().of(stage).wall_ms));
+                                median(act().stopwatch().of(stage).wall_ms));
         return text;
     };
-    const gles::FluidSetup& fluid = act_.show().fluid().setup();
-    fmt::print("scene       {} ({}x{}x{} cells of {:.2f} mm)\n", act_.scene().title, fluid.cells.x,
+    const gles::FluidSetup& fluid = act().show().fluid().setup();
+    fmt::print("scene       {} ({}x{}x{} cells of {:.2f} mm)\n", act().scene().title, fluid.cells.x,
                fluid.cells.y, fluid.cells.z, fluid.cell_m * 1e3);
     fmt::print("renderer    {}, {}\n", graphics_->gpu.capabilities().renderer,
                graphics_->display->describe());
