@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "firmware/haptic/dead_man.h"
 #include "firmware/haptic/force_gate.h"
@@ -64,10 +65,11 @@ struct LoopReport {
 
 /// Everything that passes between the loop and the rest of the program. Each has one writer and one reader.
 struct HapticExchange {
-    Snapshot<FluidSnapshot> fluid;  ///< fluid -> loop
-    Snapshot<HapticOrders> orders;  ///< exhibit -> loop
-    Snapshot<PoseSnapshot> pose;    ///< loop -> fluid
-    Snapshot<LoopReport> report;    ///< loop -> exhibit
+    Snapshot<FluidSnapshot> fluid;               ///< fluid -> loop
+    Snapshot<HapticOrders> orders;               ///< exhibit -> loop
+    Snapshot<PoseSnapshot> pose;                 ///< loop -> fluid
+    Snapshot<LoopReport> report;                 ///< loop -> exhibit
+    Snapshot<std::optional<HandleLight>> light;  ///< exhibit -> loop; nothing: the device's own
 };
 
 }  // namespace eddy

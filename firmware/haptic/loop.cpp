@@ -5,8 +5,14 @@
 namespace eddy {
 
 HapticLoop::HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace& trace,
-                       const HapticLoopSettings& settings, FlightRecorder* flights)
-    : device_(device), exchange_(exchange), trace_(trace), flights_(flights), state_(hand_state(settings)) {}
+                       const HapticLoopSettings& settings, FlightRecorder* flights,
+                       const std::atomic<bool>* stop_input)
+    : device_(device),
+      exchange_(exchange),
+      trace_(trace),
+      flights_(flights),
+      stop_input_(stop_input),
+      state_(hand_state(settings)) {}
 
 void HapticLoop::tick(Instant now) {
     const Instant step = report_.ticks > 0 ? now - last_ : kTick;
@@ -20,9 +26,12 @@ void HapticLoop::tick(Instant now) {
                    .fluid = exchange_.fluid.newest(),
                    .orders = exchange_.orders.newest()};
     if (closing_) in.orders.enabled = false;
+    // An order like any other from here on: the flight recorder keeps it, and a rerun obeys it.
+    if (stop_input_ && stop_input_->load(std::memory_order_relaxed)) in.orders.stop = true;
 
     if (flights_) flights_->begin_tick(state_);
     const LawOutput out = hand_tick(state_, in, step);
+    if (const auto& light = exchange_.light.newest()) device_.show(*light);
     device_.command(out.force_n);
     if (flights_) flights_->end_tick(step, in, out);
     exchange_.pose.publish(out.pose);

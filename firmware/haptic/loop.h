@@ -20,9 +20,11 @@ inline constexpr int kClosingTicks = 10;
 /// to it through the exchange.
 class HapticLoop {
   public:
-    /// All of these must outlive the loop. `flights` may be null: then no fault can be run again.
+    /// All of these must outlive the loop. `flights` may be null: then no fault can be run again. `stop_input`, if there is one, is
+    /// looked at in every tick: while it is true it counts as HapticOrders::stop.
     HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace& trace,
-               const HapticLoopSettings& settings = {}, FlightRecorder* flights = nullptr);
+               const HapticLoopSettings& settings = {}, FlightRecorder* flights = nullptr,
+               const std::atomic<bool>* stop_input = nullptr);
 
     /// One tick. `now` never goes back. For callers that keep time themselves (replay, tests).
     void tick(Instant now);
@@ -39,6 +41,7 @@ class HapticLoop {
     HapticExchange& exchange_;
     TickTrace& trace_;
     FlightRecorder* flights_;
+    const std::atomic<bool>* stop_input_;
     HandState state_;
     LoopReport report_;
     Instant last_{0};       // time of the last tick

@@ -35,6 +35,7 @@ class Handle final : public HapticDevice {
     void poll(Instant now) override;
     std::optional<HandleReading> read() override { return std::exchange(reading_, std::nullopt); }
     void command(const glm::dvec3& force_n) override { force_n_ = force_n; }
+    void show(const HandleLight&) override {}
     HapticState state() const override { return HapticState::Ready; }
     HapticCounters counters() const override { return {}; }
     Seconds silence(Instant) const override { return Seconds(0.0); }

@@ -18,6 +18,7 @@ class RandomHand final : public HapticDevice {
     void poll(Instant now) override;
     std::optional<HandleReading> read() override;
     void command(const glm::dvec3&) override {}
+    void show(const HandleLight&) override {}
     HapticState state() const override { return state_; }
     HapticCounters counters() const override { return {}; }
     Seconds silence(Instant now) const override;

@@ -15,6 +15,12 @@ struct HandleReading {
     Instant taken_at{0};         ///< when the last byte of the reply arrived
 };
 
+/// The light in the handle's ring.
+struct HandleLight {
+    bool red = false, green = false, blue = false;
+    bool operator==(const HandleLight&) const = default;
+};
+
 /// Absent: not found. Booting: found, answering no frames yet. Loading: firmware upload. Homing: running,
 /// positions not yet absolute. Ready: positions are true and forces are obeyed. Fault: given up until the
 /// device comes back.
@@ -54,6 +60,9 @@ class HapticDevice {
     /// sent. A force that is not finite counts as zero. If the last command is still unanswered, this one
     /// waits for the reply (newest wins).
     virtual void command(const glm::dvec3& force_n) = 0;
+    /// From the next command on, while Ready, the light is this; until it is said for the first time, green. In other states it
+    /// says what the device needs: red while it wants to be homed.
+    virtual void show(const HandleLight& light) = 0;
 
     virtual HapticState state() const = 0;
     virtual HapticCounters counters() const = 0;

@@ -11,6 +11,7 @@ class MockHapticDevice : public HapticDevice {
     MOCK_METHOD(void, poll, (Instant now), (override));
     MOCK_METHOD(std::optional<HandleReading>, read, (), (override));
     MOCK_METHOD(void, command, (const glm::dvec3& force_n), (override));
+    MOCK_METHOD(void, show, (const HandleLight& light), (override));
     MOCK_METHOD(HapticState, state, (), (const, override));
     MOCK_METHOD(HapticCounters, counters, (), (const, override));
     MOCK_METHOD(Seconds, silence, (Instant now), (const, override));

@@ -284,10 +284,12 @@ void Falcon::send_force(const glm::dvec3& force_n) {
 
 void Falcon::send(const Axes& motors) {
     const bool homed = step_ == Step::Ready;
+    const HandleLight light = homed ? light_ : HandleLight{.red = true};
     exchange_.send({.motors = homed ? motors : Axes{},
                     .homing = !homed || settings_.keep_homing_bit,
-                    .red = !homed,
-                    .green = homed},
+                    .red = light.red,
+                    .green = light.green,
+                    .blue = light.blue},
                    now_);
     sent_at_ = now_;
     zero_next_ = false;

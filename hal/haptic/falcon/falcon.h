@@ -46,6 +46,7 @@ class Falcon final : public HapticDevice {
     void poll(Instant now) override;
     std::optional<HandleReading> read() override;
     void command(const glm::dvec3& force_n) override;
+    void show(const HandleLight& light) override { light_ = light; }
 
     HapticState state() const override;
     HapticCounters counters() const override;
@@ -94,6 +95,7 @@ class Falcon final : public HapticDevice {
     std::optional<Instant> replied_at_;   // last good reply
     Instant sent_at_{0};                  // last command
     bool zero_next_ = false;             // a reply stayed out: the next command is zero whatever is asked for
+    HandleLight light_{.green = true};   // while Ready
     std::optional<glm::dvec3> waiting_;  // force asked for while a command was unanswered     [N, Device]
     std::optional<HandleReading> reading_;  // not yet handed out
     HapticCounters counters_;

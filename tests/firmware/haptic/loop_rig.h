@@ -14,7 +14,8 @@ struct LoopRig {
     TickTrace trace{20'000};
     HapticLoopSettings settings{};
     FlightRecorder flights{settings};
-    HapticLoop loop{device, exchange, trace, settings, &flights};
+    std::atomic<bool> stop_input{false};
+    HapticLoop loop{device, exchange, trace, settings, &flights, &stop_input};
     HapticOrders orders{.enabled = true,
                         .tank_from_device = {.centre_m = glm::dvec3(0.1), .scale = 1.0},
                         .lowest_m = glm::dvec3(0.0),

@@ -22,6 +22,8 @@ struct Condition {
 const std::vector<Condition>& conditions() {
     static const std::vector<Condition> all{
         {"the stop input", GateReason::Stopped, [](LoopRig& r) { r.orders.stop = true, r.order(); }},
+        {"the stop input that the loop itself looks at", GateReason::Stopped,
+         [](LoopRig& r) { r.stop_input = true; }},
         {"pause, scene change, fluid reset", GateReason::Disabled,
          [](LoopRig& r) { r.orders.enabled = false, r.order(); }},
         {"a force that is no number", GateReason::NotFinite,
@@ -92,6 +94,7 @@ TEST(Safety, AfterEachTheForceComesBackSoftlyOrNotAtAll) {
         rig.run(20);  // the fluid's next answer
         rig.orders.enabled = true;
         rig.orders.stop = false;
+        rig.stop_input = false;
         ++rig.orders.resets;
         ++rig.orders.restarts;
         rig.order();

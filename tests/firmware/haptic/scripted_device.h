@@ -19,6 +19,7 @@ struct ScriptedDevice final : HapticDevice {
     Seconds last_reply{-std::numeric_limits<double>::infinity()};
     glm::dvec3 commanded_n{0.0};
     int zeros_in_a_row = 0;
+    HandleLight light{};
 
     void poll(Instant now) override {
         if (!answers) return;
@@ -30,6 +31,7 @@ struct ScriptedDevice final : HapticDevice {
         commanded_n = force_n;
         zeros_in_a_row = force_n == glm::dvec3(0.0) ? zeros_in_a_row + 1 : 0;
     }
+    void show(const HandleLight& shown) override { light = shown; }
     HapticState state() const override { return is; }
     HapticCounters counters() const override { return {}; }
     Seconds silence(Instant now) const override { return Seconds(now) - last_reply; }
