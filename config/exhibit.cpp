@@ -30,6 +30,28 @@ void describe(Visitor& v, FalconConfig& f) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, GpioConfig& g) {
+    v.value("button", g.button,
+            "staff's button: a click starts anew, 3 s show the guide pages, 10 s shut down; line by name, as "
+            "GPIO17, or as "
+            "CHIP:OFFSET, as cp2112_gpio:0, where CHIP is a chip's label, name or path; empty: none");
+    v.value("stop", g.stop,
+            "stop input: pressed, or its line away, there is no force until a click on the button; not for "
+            "conf.d");
+    v.value("lamp_green", g.lamp_green,
+            "green lamp; if only one of the lamps is wired it says all by the number of its blinks");
+    v.value("lamp_amber", g.lamp_amber, "amber lamp");
+    v.value("lamp_red", g.lamp_red, "red lamp");
+    v.value("button_active_low", g.button_active_low,
+            "the button joins its line to ground when it is pressed");
+    v.value("stop_active_low", g.stop_active_low,
+            "false: a contact that opens when the stop is pressed joins its line to ground, so that a broken "
+            "wire "
+            "stops, too; not for conf.d");
+    v.value("lamps_active_low", g.lamps_active_low, "a lamp lights when its line is at 0 V");
+}
+
+template <class Visitor>
 void describe(Visitor& v, Exhibit& e) {
     v.value("scene", e.scene, "a shipped scene by name, or the path of a scene file");
     v.value("display", e.display, "where the picture goes");
@@ -46,9 +68,29 @@ void describe(Visitor& v, Exhibit& e) {
     v.value("run_dir", e.run_dir, "what lives as long as the program: status");
     v.value("max_force_n", e.max_force_n, "no scene makes the hand feel more", between(0, 8));
     v.table("falcon", e.falcon, "The Novint Falcon.");
+    v.table("gpio", e.gpio, "Button, stop input and lamps.");
 }
 
 namespace {
+
+/// Knows no machine: whether a line is there is for the one that runs.
+void check(const GpioConfig& gpio, Findings& findings) {
+    const std::pair<const char*, const std::string*> lines[] = {{"gpio.button", &gpio.button},
+                                                                {"gpio.stop", &gpio.stop},
+                                                                {"gpio.lamp_green", &gpio.lamp_green},
+                                                                {"gpio.lamp_amber", &gpio.lamp_amber},
+                                                                {"gpio.lamp_red", &gpio.lamp_red}};
+    for (std::size_t i = 0; i < std::size(lines); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (const auto& [key, line] = lines[i]; !line->empty() && *line == *lines[j].second)
+                findings.blame(
+                    place_of(findings.origins, key), key,
+                    fmt::format("line {} is that of {} already", in_quotes(*line), lines[j].first));
+    if (!gpio.stop.empty() && gpio.button.empty())
+        findings.blame(
+            place_of(findings.origins, "gpio.stop"), "gpio.stop",
+            "after a stop the force comes back by a click on the button: gpio.button must name one");
+}
 
 void check(const Exhibit& exhibit, Findings& findings) {
     const auto names = shipped_scenes();
@@ -68,6 +110,7 @@ void check(const Exhibit& exhibit, Findings& findings) {
     require_absolute("state_dir", exhibit.state_dir);
     require_absolute("run_dir", exhibit.run_dir);
     if (!exhibit.falcon.firmware.empty()) require_absolute("falcon.firmware", exhibit.falcon.firmware);
+    check(exhibit.gpio, findings);
 }
 
 /// The files of a configuration folder, in the order in which they apply.
@@ -120,15 +163,23 @@ LoadedExhibit load_exhibit(const std::filesystem::path& folder) {
     all.insert(all.end(), layers.drop_ins.begin(), layers.drop_ins.end());
     LoadedExhibit loaded = load_layers(all);
     Findings alone;  // without the drop-ins it need not be complete
-    if (const double own_n = read_layers(layers.own, alone).max_force_n; loaded.exhibit.max_force_n > own_n) {
-        Findings findings;
+    const Exhibit own = read_layers(layers.own, alone);
+    Findings findings;
+    if (loaded.exhibit.max_force_n > own.max_force_n)
         findings.blame(
             place_of(loaded.origins, "max_force_n"), "max_force_n",
             fmt::format("a file in conf.d can only lower it, and without them it is {:g}; to raise "
                         "it, write it into {}",
-                        own_n, (folder / "exhibit.toml").string()));
-        throw ConfigError(std::move(findings.diagnostics));
-    }
+                        own.max_force_n, (folder / "exhibit.toml").string()));
+    const auto require_own = [&](const char* key, bool same) {
+        if (!same)
+            findings.blame(place_of(loaded.origins, key), key,
+                           fmt::format("no file in conf.d can change the stop input; write it into {}",
+                                       (folder / "exhibit.toml").string()));
+    };
+    require_own("gpio.stop", loaded.exhibit.gpio.stop == own.gpio.stop);
+    require_own("gpio.stop_active_low", loaded.exhibit.gpio.stop_active_low == own.gpio.stop_active_low);
+    if (!findings.diagnostics.empty()) throw ConfigError(std::move(findings.diagnostics));
     return loaded;
 }
 

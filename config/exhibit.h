@@ -63,6 +63,17 @@ struct FalconConfig {
     bool operator==(const FalconConfig&) const = default;
 };
 
+/// Button, stop input and lamps of this machine; each line by its name or as CHIP:OFFSET, empty: there is none.
+struct GpioConfig {
+    std::string button{};
+    std::string stop{};
+    std::string lamp_green{}, lamp_amber{}, lamp_red{};
+    bool button_active_low = true;
+    bool stop_active_low = false;
+    bool lamps_active_low = false;
+    bool operator==(const GpioConfig&) const = default;
+};
+
 /// What an exhibit machine is set to. exhibit.cpp has each key's meaning and range, exhibit.toml its value.
 struct Exhibit {
     std::string scene = "jet";  ///< as load_scene() takes it
@@ -76,6 +87,7 @@ struct Exhibit {
     std::filesystem::path run_dir = "/run/eddy";
     double max_force_n = 4.0;
     FalconConfig falcon{};
+    GpioConfig gpio{};
     bool operator==(const Exhibit&) const = default;
 };
 
@@ -87,7 +99,7 @@ struct LoadedExhibit {
 
 /// Merges what the binary ships (config/exhibit.toml), `folder`/exhibit.toml and `folder`/conf.d/*.toml in
 /// the order of their names; the later wins, key by key. Files and folders that do not exist are skipped.
-/// max_force_n can only be lowered in conf.d, which a server may fill from afar.
+/// max_force_n can only be lowered in conf.d, which a server may fill from afar; the stop input is not set there at all.
 /// Throws ConfigError, with everything that is wrong.
 LoadedExhibit load_exhibit(const std::filesystem::path& folder = "/etc/eddy");
 
