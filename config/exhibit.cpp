@@ -92,6 +92,17 @@ void check(const GpioConfig& gpio, Findings& findings) {
             "after a stop the force comes back by a click on the button: gpio.button must name one");
 }
 
+/// The visitor that knows what the tables are called.
+struct TableNames {
+    template <class T>
+    void value(std::string_view, const T&, std::string_view, const Range& = {}) {}
+    template <class Struct>
+    void table(std::string_view key, const Struct&, std::string_view) {
+        names.push_back(key);
+    }
+    std::vector<std::string_view> names{};
+};
+
 void check(const Exhibit& exhibit, Findings& findings) {
     const auto names = shipped_scenes();
     if (!is_scene_file(exhibit.scene) && std::find(names.begin(), names.end(), exhibit.scene) == names.end())
@@ -185,6 +196,17 @@ LoadedExhibit load_exhibit(const std::filesystem::path& folder) {
 
 LoadedExhibit load_exhibit_file(const std::filesystem::path& file) {
     return load_layers({file});
+}
+
+bool holds_an_exhibit_table(const std::string& file) {
+    TableNames tables;
+    Exhibit exhibit;
+    describe(tables, exhibit);
+    const Node document = parse_toml(read_file(file), file);
+    return std::any_of(document.children.begin(), document.children.end(), [&](const Node& entry) {
+        return entry.kind == Node::Kind::Table &&
+               std::find(tables.names.begin(), tables.names.end(), entry.key) != tables.names.end();
+    });
 }
 
 std::string print_exhibit(Exhibit exhibit, const Origins* origins) {

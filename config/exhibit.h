@@ -106,6 +106,10 @@ LoadedExhibit load_exhibit(const std::filesystem::path& folder = "/etc/eddy");
 /// What `file` alone would set, merged over what the binary ships. Throws as load_exhibit() does.
 LoadedExhibit load_exhibit_file(const std::filesystem::path& file);
 
+/// Whether a file, of which nothing is said, has a table that is an exhibit's ([falcon]) and no scene's. Throws ConfigError if it
+/// cannot be read.
+bool holds_an_exhibit_table(const std::string& file);
+
 /// The settings as TOML; with `origins`, a comment after each value says where it came from.
 std::string print_exhibit(Exhibit exhibit, const Origins* origins = nullptr);
 
