@@ -43,7 +43,7 @@ const char* sentence_for(Obstacle obstacle) {
         case Obstacle::Denied:
             return "there is a Novint Falcon (USB 0403:cb48) that this user may not open: install the udev "
                    "rule "
-                   "60-eddy-falcon.rules and plug it in again";
+                   "60-eddy.rules and plug it in again";
         case Obstacle::Busy:
             return "there is a Novint Falcon (USB 0403:cb48) that another program uses: end that program";
         case Obstacle::Unusable:
