@@ -1,0 +1,88 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <regex>
+
+#include "tests/end_to_end/program.h"
+
+namespace eddy {
+namespace {
+
+using testing::HasSubstr;
+
+const std::filesystem::path kUnits = std::filesystem::path(EDDY_SOURCE_DIR) / "systemd";
+
+bool has_systemd_analyze() {
+    return std::system("command -v systemd-analyze >/dev/null") == 0;
+}
+
+/// The units as they are installed, but for the place of the program, in a folder of their own.
+class Units : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (!has_systemd_analyze()) GTEST_SKIP() << "skipped: systemd-analyze is not here (package systemd)";
+        for (const auto& entry : std::filesystem::directory_iterator(kUnits)) {
+            const std::string name = entry.path().filename().string();
+            if (!name.ends_with(".service") && !name.ends_with(".path")) continue;
+            std::string text = read_all(entry.path());
+            text = std::regex_replace(text, std::regex("/usr/bin/eddy"), EDDY_BINARY);
+            paths_.push_back(folder_.write(name, text));
+        }
+    }
+    Ended verify(const std::vector<std::string>& units) {
+        std::vector<std::string> command{"systemd-analyze", "verify"};
+        command.insert(command.end(), units.begin(), units.end());
+        return Program(command).wait();
+    }
+    ScratchFolder folder_;
+    std::vector<std::string> paths_;
+};
+
+TEST_F(Units, SayNothingThatSystemdDoesNotUnderstand) {
+    const Ended found = verify(paths_);
+    EXPECT_EQ(found.status, 0);
+    EXPECT_EQ(found.err + found.out, "");
+    ASSERT_EQ(paths_.size(), 3U);
+}
+
+TEST_F(Units, AMistakeWouldBeSeen) {
+    const std::string bad = folder_.write("bad.service", "[Service]\nExecStart=/bin/true\nRestrat=always\n");
+    EXPECT_THAT(verify({bad}).err, HasSubstr("Restrat"));
+}
+
+TEST_F(Units, TheExhibitIsExposedByOneAndAHalfAtMost) {
+    const Ended found =
+        Program({"systemd-analyze", "security", "--offline=true", folder_ / "eddy.service"}).wait();
+    std::smatch m;
+    const std::regex kLevel(R"(Overall exposure level for eddy.service: ([0-9.]+))");
+    ASSERT_TRUE(std::regex_search(found.out, m, kLevel)) << found.out << found.err;
+    EXPECT_LE(std::stod(m[1]), 1.5) << found.out;
+}
+
+/// Values of a key of eddy.service.
+std::vector<std::string> values_of(const std::string& key) {
+    std::vector<std::string> values;
+    for (const std::string& line : lines_of(read_all(kUnits / "eddy.service")))
+        if (line.starts_with(key + "=")) values.push_back(line.substr(key.size() + 1));
+    return values;
+}
+
+TEST(EddyService, AsksForItsWatchdogWithinTenSecondsAndIsStartedAgainAtOnce) {
+    using testing::ElementsAre;
+    EXPECT_THAT(values_of("Type"), ElementsAre("notify"));
+    EXPECT_THAT(values_of("WatchdogSec"), ElementsAre("10"));
+    EXPECT_THAT(values_of("Restart"), ElementsAre("always"));
+    EXPECT_THAT(values_of("RestartSec"), ElementsAre("200ms"));
+    EXPECT_THAT(values_of("StartLimitAction"), ElementsAre("reboot"));
+}
+
+TEST(EddyService, LetsTheRasteriserWriteCodeAndGivesNoThreadPriorityUnasked) {
+    using testing::IsEmpty;
+    EXPECT_THAT(values_of("MemoryDenyWriteExecute"), IsEmpty());
+    EXPECT_THAT(values_of("CPUSchedulingPolicy"), IsEmpty());
+    EXPECT_THAT(values_of("RestrictRealtime"), IsEmpty());
+}
+
+}  // namespace
+}  // namespace eddy
