@@ -36,6 +36,8 @@ class Plant {
     void hang(double mass_kg) { hung_kg_ = mass_kg; }
     /// From now on nobody holds it.
     void let_go() { settings_.hand = Hand::None; }
+    /// From now on it is held so.
+    void hold(Hand hand) { settings_.hand = hand; }
 
     /// Puts the handle, at rest, where the hand wants to be at this time.
     void start(Instant at);
