@@ -68,10 +68,10 @@ std::vector<std::string> values_of(const std::string& key) {
     return values;
 }
 
-TEST(EddyService, AsksForItsWatchdogWithinTenSecondsAndIsStartedAgainAtOnce) {
+TEST(EddyService, BearsWithEightSecondsOfSilenceAndIsStartedAgainAtOnce) {
     using testing::ElementsAre;
     EXPECT_THAT(values_of("Type"), ElementsAre("notify"));
-    EXPECT_THAT(values_of("WatchdogSec"), ElementsAre("10"));
+    EXPECT_THAT(values_of("WatchdogSec"), ElementsAre("8"));
     EXPECT_THAT(values_of("Restart"), ElementsAre("always"));
     EXPECT_THAT(values_of("RestartSec"), ElementsAre("200ms"));
     EXPECT_THAT(values_of("StartLimitAction"), ElementsAre("reboot"));

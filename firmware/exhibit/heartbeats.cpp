@@ -1,0 +1,29 @@
+#include "firmware/exhibit/heartbeats.h"
+
+namespace eddy {
+
+void Heartbeats::expect(Part part, Instant now) {
+    beats_[static_cast<std::size_t>(part)] = Beat{.count = 0, .at = now};
+}
+
+void Heartbeats::forget(Part part) {
+    beats_[static_cast<std::size_t>(part)].reset();
+}
+
+void Heartbeats::see(Part part, std::uint64_t count, Instant now) {
+    std::optional<Beat>& beat = beats_[static_cast<std::size_t>(part)];
+    if (beat && beat->count != count) *beat = Beat{.count = count, .at = now};
+}
+
+void Heartbeats::excuse(Instant now) {
+    for (std::optional<Beat>& beat : beats_)
+        if (beat) beat->at = now;
+}
+
+std::optional<Part> Heartbeats::hanging(Instant now) const {
+    for (std::size_t i = 0; i < beats_.size(); ++i)
+        if (beats_[i] && now - beats_[i]->at > kPatience) return static_cast<Part>(i);
+    return std::nullopt;
+}
+
+}  // namespace eddy

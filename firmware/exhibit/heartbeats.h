@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "config/value.h"
+#include "hal/clock.h"
+
+namespace eddy {
+
+/// What of the program has to get on for the exhibit to be alive.
+enum class Part : std::uint8_t { Render, Haptic, Config, Gpio };
+
+inline constexpr Word<Part> kParts[] = {
+    {Part::Render, "render", "fluid and picture"},
+    {Part::Haptic, "haptic", "the 1 kHz loop"},
+    {Part::Config, "config", "who looks after the files"},
+    {Part::Gpio, "gpio", "who looks after button and lamps"},
+};
+constexpr std::span<const Word<Part>> words_of(Part) {
+    return kParts;
+}
+
+/// Whether all of them get on, judged by time, not by frames: each has a count that it moves at its own pace, and each must
+/// have moved it lately. One thread; the counts may come from others.
+class Heartbeats {
+  public:
+    /// A part that has not got on for so long hangs.
+    static constexpr Instant kPatience = std::chrono::seconds(2);
+
+    /// A part that has to get on; from now on it has this long to begin.
+    void expect(Part part, Instant now);
+    /// One that has ended, or is not there: nobody waits for it.
+    void forget(Part part);
+    /// Its count as it is now. That of a part that is not expected means nothing.
+    void see(Part part, std::uint64_t count, Instant now);
+    /// After work of this thread that had to take long (a scene that is made): nobody else had a chance to be seen.
+    void excuse(Instant now);
+
+    /// The first part that hangs, if any.
+    std::optional<Part> hanging(Instant now) const;
+
+  private:
+    struct Beat {
+        std::uint64_t count = 0;
+        Instant at{0};  ///< when it was seen to move
+    };
+    std::array<std::optional<Beat>, std::size(kParts)> beats_{};
+};
+
+}  // namespace eddy

@@ -1,0 +1,98 @@
+#include "firmware/exhibit/start_ledger.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "firmware/exhibit/kept.h"
+
+namespace eddy {
+namespace {
+
+/// More than an hour's worth of failures: kMostRestarts times kBurst, and some.
+constexpr std::size_t kMostStarts = 64;
+
+}  // namespace
+
+StartLedger::StartLedger(const std::filesystem::path& folder)
+    : file_(folder / "starts"), marker_(folder / "safe"), starts_(read()) {}
+
+/// A line that is no start is left out.
+std::vector<StartLedger::Start> StartLedger::read() const {
+    std::vector<Start> starts;
+    std::istringstream lines(kept(file_).value_or(""));
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        Start start;
+        std::string end, more;
+        if (words >> start.at_s >> start.boot >> end && !(words >> more) && (end == "well" || end == "-")) {
+            start.well = end == "well";
+            starts.push_back(start);
+        }
+    }
+    return starts;
+}
+
+bool StartLedger::write() const {
+    std::string text;
+    for (const Start& start : starts_)
+        text += fmt::format("{} {} {}\n", start.at_s, start.boot, start.well ? "well" : "-");
+    return keep(file_, text);
+}
+
+bool StartLedger::gave_up(const std::string& boot, std::int64_t& at_s) const {
+    std::vector<std::int64_t> failures;
+    for (const Start& start : starts_)
+        if (start.boot == boot && !start.well) failures.push_back(start.at_s);
+    if (failures.size() < kBurst) return false;
+    at_s = failures.back();
+    return at_s - failures[failures.size() - kBurst] <= kBurst_s;
+}
+
+StartLedger::Verdict StartLedger::begin(std::int64_t now_s, const std::string& boot) {
+    Verdict verdict;
+    const std::string this_boot = boot.empty() ? "unknown" : boot;
+    std::set<std::string> boots;
+    for (const Start& start : starts_)
+        if (start.boot != this_boot) boots.insert(start.boot);
+    bool power_lost = !starts_.empty();
+    for (const std::string& before : boots) {
+        std::int64_t at_s = 0;
+        if (!gave_up(before, at_s)) continue;
+        if (before == starts_.back().boot) power_lost = false;
+        // A clock that was set back has not made a failure undone.
+        if (now_s - at_s < kHour_s) ++verdict.restarts;
+    }
+    if (!starts_.empty()) {
+        const Start& last = starts_.back();
+        power_lost = power_lost && last.boot != this_boot;
+        verdict.before = last.well ? EndBefore::Well : power_lost ? EndBefore::PowerLost : EndBefore::Failed;
+    }
+    std::error_code error;
+    verdict.asked_for = std::filesystem::exists(marker_, error);
+    verdict.safe = verdict.asked_for || verdict.restarts >= kMostRestarts;
+    if (verdict.safe && !starts_.empty() && starts_.back().boot == this_boot)
+        verdict.wait_s = std::clamp<std::int64_t>(starts_.back().at_s + kSafeStep_s - now_s, 0, kSafeStep_s);
+    starts_.push_back({now_s + verdict.wait_s, this_boot, false});
+    if (starts_.size() > kMostStarts)
+        starts_.erase(starts_.begin(), starts_.end() - static_cast<std::ptrdiff_t>(kMostStarts));
+    verdict.written = write();
+    return verdict;
+}
+
+void StartLedger::end_well() {
+    if (starts_.empty()) return;
+    starts_.back().well = true;
+    write();
+}
+
+std::string boot_id() {
+    std::string id;
+    std::ifstream("/proc/sys/kernel/random/boot_id") >> id;
+    return id;
+}
+
+}  // namespace eddy

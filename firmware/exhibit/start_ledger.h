@@ -1,0 +1,68 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace eddy {
+
+/// How the run before this one ended.
+enum class EndBefore : std::uint8_t {
+    None,      ///< there was none
+    Well,      ///< when it was told to
+    Failed,    ///< it crashed, or was ended because it hung
+    PowerLost  ///< the machine went away under it
+};
+
+/// Keeps the last starts of the program in a file, and decides from them how this one is to be. eddy.service starts the
+/// machine anew after kBurst failures within kBurst_s; when that has not helped kMostRestarts times within an hour, the program goes on
+/// in safe mode: the settings of the factory, no force, and a minute between two starts, so that the machine is not started again.
+/// A file named `safe` beside the ledger asks for the same. An hour after the last such restart of the machine, a start is as
+/// usual again.
+class StartLedger {
+  public:
+    // As eddy.service has them: StartLimitBurst=, StartLimitIntervalSec=.
+    static constexpr int kBurst = 5;
+    static constexpr std::int64_t kBurst_s = 300;
+    static constexpr int kMostRestarts = 3;
+    static constexpr std::int64_t kHour_s = 3600;
+    /// Between starts in safe mode; kBurst of them take longer than kBurst_s.
+    static constexpr std::int64_t kSafeStep_s = kBurst_s / (kBurst - 1) + 1;
+
+    struct Verdict {
+        EndBefore before = EndBefore::None;
+        int restarts = 0;         ///< of the machine within the last hour, because the program failed
+        bool safe = false;        ///< safe mode
+        bool asked_for = false;   ///< by the file
+        std::int64_t wait_s = 0;  ///< before anything else is tried
+        bool written = true;      ///< the start could be put down
+    };
+
+    /// `folder`: that of the state.
+    explicit StartLedger(const std::filesystem::path& folder);
+
+    /// This start: `now_s` by the machine's clock (seconds UTC, which may have been set meanwhile), and what names this
+    /// boot of the machine.
+    Verdict begin(std::int64_t now_s, const std::string& boot);
+    /// The program ends because it was told to.
+    void end_well();
+
+  private:
+    struct Start {
+        std::int64_t at_s = 0;
+        std::string boot;
+        bool well = false;
+    };
+    std::vector<Start> read() const;
+    bool write() const;
+    /// The machine was started anew after this boot's failures; when the last of them was.
+    bool gave_up(const std::string& boot, std::int64_t& at_s) const;
+
+    std::filesystem::path file_, marker_;
+    std::vector<Start> starts_;
+};
+
+/// What the kernel calls this boot of the machine; empty if it does not say.
+std::string boot_id();
+
+}  // namespace eddy
