@@ -33,7 +33,7 @@ const char* name_of(BoardState state) {
 }
 
 double rounded(double number) {
-    return std::round(number * 1e5) / 1e5;
+    return std::round(number * 1e5) / 1e5 + 0.0;  // and no -0
 }
 
 nlohmann::ordered_json list_of(const glm::dvec3& v) {
