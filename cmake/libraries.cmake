@@ -27,6 +27,7 @@ target_link_libraries(png_static INTERFACE m)
 static_library(usb_static libusb-1.0 usb-1.0)
 target_link_libraries(usb_static INTERFACE udev Threads::Threads)
 static_library(gpiod_static libgpiod gpiod)
+static_library(md_static libmd md)
 
 # The typeface of all words on the screen, and what turns its outlines into pixels.
 find_path(STB_INCLUDE stb/stb_truetype.h REQUIRED)

@@ -5,8 +5,11 @@
 #include <algorithm>
 
 #include "cmake/embedded.h"
+#include "config/exhibit_keys.h"
+#include "config/json_schema.h"
 #include "config/printer.h"
 #include "config/reader.h"
+#include "config/reference.h"
 #include "config/scene.h"
 
 namespace eddy {
@@ -53,20 +56,30 @@ void describe(Visitor& v, GpioConfig& g) {
 
 template <class Visitor>
 void describe(Visitor& v, Exhibit& e) {
-    v.value("scene", e.scene, "a shipped scene by name, or the path of a scene file");
+    v.takes_effect(TakesEffect::Scene);
+    v.value("scene", e.scene,
+            "a shipped scene by name, or the path of a scene file; relative to this folder");
+    v.takes_effect(TakesEffect::Process);
     v.value("display", e.display, "where the picture goes");
     v.value("haptics", e.haptics, "which hand moves the held body");
+    v.takes_effect(TakesEffect::Scene);
     v.value("force", e.force, "how the hand gets the force between two answers of the fluid");
+    v.takes_effect(TakesEffect::Live);
     v.value("overlay", e.overlay, "what is written over the picture");
+    v.takes_effect(TakesEffect::Scene);
     v.value("presets", e.presets,
             "with more than one, the right and left buttons of the grip step through these solver presets, "
             "beginning "
             "with the first; the machine is not tuned then");
     v.value("preset_s", e.preset_s, "they also change by themselves after so long; 0: never",
             between(0, 86400));
+    v.takes_effect(TakesEffect::Process);
     v.value("state_dir", e.state_dir, "what outlives a restart: calibration, tuning, flight recordings");
     v.value("run_dir", e.run_dir, "what lives as long as the program: status");
-    v.value("max_force_n", e.max_force_n, "no scene makes the hand feel more", between(0, 8));
+    v.takes_effect(TakesEffect::Live);
+    v.value("max_force_n", e.max_force_n,
+            "no scene makes the hand feel more; a file in conf.d can only lower it", between(0, 8));
+    v.takes_effect(TakesEffect::Process);
     v.table("falcon", e.falcon, "The Novint Falcon.");
     v.table("gpio", e.gpio, "Button, stop input and lamps.");
 }
@@ -92,17 +105,6 @@ void check(const GpioConfig& gpio, Findings& findings) {
             "after a stop the force comes back by a click on the button: gpio.button must name one");
 }
 
-/// The visitor that knows what the tables are called.
-struct TableNames {
-    template <class T>
-    void value(std::string_view, const T&, std::string_view, const Range& = {}) {}
-    template <class Struct>
-    void table(std::string_view key, const Struct&, std::string_view) {
-        names.push_back(key);
-    }
-    std::vector<std::string_view> names{};
-};
-
 void check(const Exhibit& exhibit, Findings& findings) {
     const auto names = shipped_scenes();
     if (!is_scene_file(exhibit.scene) && std::find(names.begin(), names.end(), exhibit.scene) == names.end())
@@ -124,95 +126,170 @@ void check(const Exhibit& exhibit, Findings& findings) {
     check(exhibit.gpio, findings);
 }
 
-/// The files of a configuration folder, in the order in which they apply.
-struct Layers {
-    std::vector<std::filesystem::path> own;       ///< exhibit.toml, if there is one: the machine's own
-    std::vector<std::filesystem::path> drop_ins;  ///< conf.d: what a fleet's server may put there
-};
-
-Layers layers_in(const std::filesystem::path& folder) {
-    Layers layers;
-    try {
-        if (std::filesystem::is_directory(folder / "conf.d")) {
-            for (const auto& entry : std::filesystem::directory_iterator(folder / "conf.d")) {
-                if (entry.path().extension() == ".toml") layers.drop_ins.push_back(entry.path());
-            }
-        }
-        std::sort(layers.drop_ins.begin(), layers.drop_ins.end());
-        if (std::filesystem::exists(folder / "exhibit.toml")) layers.own.push_back(folder / "exhibit.toml");
-    } catch (const std::filesystem::filesystem_error& error) {
-        throw ConfigError({diagnose({error.path1().string(), 0, 0}, "", error.code().message())});
+/// The files that match, sorted by name. A folder that is not there has none.
+std::vector<std::filesystem::path> toml_files_in(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    if (!std::filesystem::is_directory(folder)) return files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::filesystem::path name = entry.path().filename();
+        if (name.extension() == ".toml" && !name.string().starts_with('.')) files.push_back(entry.path());
     }
-    return layers;
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
-/// What the files say, over what the binary ships.
-Exhibit read_layers(const std::vector<std::filesystem::path>& files, Findings& findings) {
-    Node document = parse_toml(kExhibitFiles.front().text, std::string(kExhibitFiles.front().name));
-    for (const auto& file : files) merge(document, parse_toml(read_file(file.string()), file.string()));
-
-    Exhibit exhibit;
-    read_document(document, exhibit, findings);
-    return exhibit;
+void read_one(const std::filesystem::path& path, Links links, std::vector<WrittenFile>& layer,
+              ExhibitFiles& files) {
+    std::vector<WrittenFile> read;
+    try {
+        read_written_file(path, links, read);
+    } catch (const ConfigError& error) {
+        const auto& all = error.diagnostics();
+        files.diagnostics.insert(files.diagnostics.end(), all.begin(), all.end());
+    }
+    for (std::size_t i = 0; i < read.size(); ++i) (i == 0 ? layer : files.sums).push_back(std::move(read[i]));
 }
 
-LoadedExhibit load_layers(const std::vector<std::filesystem::path>& files) {
-    Findings findings;
+/// A file's TOML over `document`; what is wrong with the file by itself is blamed.
+void merge_layer(const WrittenFile& file, Node& document, Findings& findings) {
+    try {
+        const Node layer = parse_toml(file.text, file.path.string());
+        Exhibit alone;
+        Findings of_layer;
+        read_document(layer, alone, of_layer);
+        auto& blamed = of_layer.diagnostics;
+        findings.diagnostics.insert(findings.diagnostics.end(), blamed.begin(), blamed.end());
+        merge(document, layer);
+    } catch (const ConfigError& error) {
+        const auto& all = error.diagnostics();
+        findings.diagnostics.insert(findings.diagnostics.end(), all.begin(), all.end());
+    }
+}
+
+LoadedExhibit read_merged(const Node& document) {
     LoadedExhibit loaded;
-    loaded.exhibit = read_layers(files, findings);
-    check(loaded.exhibit, findings);
-    if (!findings.diagnostics.empty()) throw ConfigError(std::move(findings.diagnostics));
-    loaded.origins = std::move(findings.origins);
+    Findings seen_already;  // by merge_layer()
+    read_document(document, loaded.exhibit, seen_already);
+    loaded.origins = std::move(seen_already.origins);
     return loaded;
+}
+
+/// What a fleet's server may not do from afar.
+void check_drop_ins(const Exhibit& own, const ExhibitReading& all, const ExhibitFiles& files,
+                    Findings& findings) {
+    const Exhibit& exhibit = all.loaded.exhibit;
+    const std::string file = (files.folder / "exhibit.toml").string();
+    const auto refuse = [&](const char* key, const std::string& why) {
+        findings.blame(place_of(all.loaded.origins, key), key, why);
+    };
+    if (exhibit.max_force_n > own.max_force_n)
+        refuse("max_force_n", fmt::format("a file in conf.d can only lower it, and without them it is {:g}; "
+                                          "to raise it, write it into {}",
+                                          own.max_force_n, file));
+    const std::string stop = "no file in conf.d can change the stop input; write it into " + file;
+    if (exhibit.gpio.stop != own.gpio.stop) refuse("gpio.stop", stop);
+    if (exhibit.gpio.stop_active_low != own.gpio.stop_active_low) refuse("gpio.stop_active_low", stop);
+}
+
+ExhibitReading load_or_throw(const ExhibitFiles& files) {
+    ExhibitReading reading = read_exhibit(files);
+    if (!reading.diagnostics.empty()) throw ConfigError(std::move(reading.diagnostics));
+    return reading;
 }
 
 }  // namespace
 
-LoadedExhibit load_exhibit(const std::filesystem::path& folder) {
-    const Layers layers = layers_in(folder);
-    std::vector<std::filesystem::path> all = layers.own;
-    all.insert(all.end(), layers.drop_ins.begin(), layers.drop_ins.end());
-    LoadedExhibit loaded = load_layers(all);
-    Findings alone;  // without the drop-ins it need not be complete
-    const Exhibit own = read_layers(layers.own, alone);
+ExhibitFiles read_exhibit_files(const std::filesystem::path& folder) {
+    ExhibitFiles files;
+    try {
+        files.folder = std::filesystem::absolute(folder).lexically_normal();
+        if (std::filesystem::exists(std::filesystem::symlink_status(folder / "exhibit.toml")))
+            read_one(folder / "exhibit.toml", Links::Follow, files.own, files);
+        for (const auto& file : toml_files_in(folder / "conf.d"))
+            read_one(file, Links::Refuse, files.drop_ins, files);
+    } catch (const std::filesystem::filesystem_error& error) {
+        files.diagnostics.push_back(diagnose({error.path1().string(), 0, 0}, "", error.code().message()));
+    }
+    return files;
+}
+
+ExhibitReading read_exhibit(const ExhibitFiles& files) {
     Findings findings;
-    if (loaded.exhibit.max_force_n > own.max_force_n)
-        findings.blame(
-            place_of(loaded.origins, "max_force_n"), "max_force_n",
-            fmt::format("a file in conf.d can only lower it, and without them it is {:g}; to raise "
-                        "it, write it into {}",
-                        own.max_force_n, (folder / "exhibit.toml").string()));
-    const auto require_own = [&](const char* key, bool same) {
-        if (!same)
-            findings.blame(place_of(loaded.origins, key), key,
-                           fmt::format("no file in conf.d can change the stop input; write it into {}",
-                                       (folder / "exhibit.toml").string()));
-    };
-    require_own("gpio.stop", loaded.exhibit.gpio.stop == own.gpio.stop);
-    require_own("gpio.stop_active_low", loaded.exhibit.gpio.stop_active_low == own.gpio.stop_active_low);
-    if (!findings.diagnostics.empty()) throw ConfigError(std::move(findings.diagnostics));
-    return loaded;
+    findings.diagnostics = files.diagnostics;
+    Node document = parse_toml(kExhibitFiles.front().text, std::string(kExhibitFiles.front().name));
+    for (const WrittenFile& file : files.own) merge_layer(file, document, findings);
+    const Exhibit own = read_merged(document).exhibit;
+    for (const WrittenFile& file : files.drop_ins) merge_layer(file, document, findings);
+    ExhibitReading reading{read_merged(document), {}};
+
+    findings.origins = reading.loaded.origins;
+    check(reading.loaded.exhibit, findings);
+    check_drop_ins(own, reading, files, findings);
+    if (std::string& scene = reading.loaded.exhibit.scene; is_scene_file(scene))
+        scene = (files.folder / scene).lexically_normal().string();
+    reading.diagnostics = ConfigError(std::move(findings.diagnostics)).diagnostics();
+    return reading;
+}
+
+LoadedExhibit load_exhibit(const std::filesystem::path& folder) {
+    return load_or_throw(read_exhibit_files(folder)).loaded;
 }
 
 LoadedExhibit load_exhibit_file(const std::filesystem::path& file) {
-    return load_layers({file});
-}
-
-bool holds_an_exhibit_table(const std::string& file) {
-    TableNames tables;
-    Exhibit exhibit;
-    describe(tables, exhibit);
-    const Node document = parse_toml(read_file(file), file);
-    return std::any_of(document.children.begin(), document.children.end(), [&](const Node& entry) {
-        return entry.kind == Node::Kind::Table &&
-               std::find(tables.names.begin(), tables.names.end(), entry.key) != tables.names.end();
-    });
+    ExhibitFiles files;
+    const std::filesystem::path folder = std::filesystem::absolute(file).lexically_normal().parent_path();
+    files.folder = folder.filename() == "conf.d" ? folder.parent_path() : folder;
+    read_one(file, Links::Follow, files.own, files);
+    return load_or_throw(files).loaded;
 }
 
 std::string print_exhibit(Exhibit exhibit, const Origins* origins) {
     Printer printer(origins);
     describe(printer, exhibit);
     return printer.text();
+}
+
+bool is_exhibit_key(std::string_view name) {
+    Exhibit exhibit;
+    ExhibitKeys keys;
+    describe(keys, exhibit);
+    return keys.has(name);
+}
+
+bool is_exhibit_table(std::string_view name) {
+    Exhibit exhibit;
+    ExhibitKeys keys;
+    describe(keys, exhibit);
+    return keys.has_inside(name);
+}
+
+std::vector<KeyChange> changed_keys(Exhibit from, Exhibit to) {
+    ExhibitKeys before, after;
+    describe(before, from);
+    describe(after, to);
+    return after.changes_since(before);
+}
+
+Exhibit without_restart(Exhibit running, Exhibit next) {
+    ExhibitKeys before, after;
+    describe(before, running);
+    describe(after, next);
+    after.keep(before, [](TakesEffect when) { return when > TakesEffect::Scene; });
+    return next;
+}
+
+std::string exhibit_reference() {
+    Reference reference(Reference::Keys::OfExhibit);
+    Exhibit exhibit;
+    describe(reference, exhibit);
+    return reference.text();
+}
+
+std::string exhibit_schema() {
+    JsonSchema schema;
+    Exhibit exhibit;
+    describe(schema, exhibit);
+    return schema.text("Settings of an Eddy exhibit");
 }
 
 }  // namespace eddy

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "config/scene_words.h"
+#include "config/takes_effect.h"
 #include "config/value.h"
+#include "config/written_file.h"
 
 namespace eddy {
 
@@ -97,20 +99,62 @@ struct LoadedExhibit {
     Origins origins;
 };
 
-/// Merges what the binary ships (config/exhibit.toml), `folder`/exhibit.toml and `folder`/conf.d/*.toml in
-/// the order of their names; the later wins, key by key. Files and folders that do not exist are skipped.
-/// max_force_n can only be lowered in conf.d, which a server may fill from afar; the stop input is not set there at all.
-/// Throws ConfigError, with everything that is wrong.
-LoadedExhibit load_exhibit(const std::filesystem::path& folder = "/etc/eddy");
+/// The files of a configuration folder, read once.
+struct ExhibitFiles {
+    std::filesystem::path folder;  ///< absolute; scenes are named from here
+    std::vector<WrittenFile> own;  ///< exhibit.toml, if there is one: the machine's own
+    std::vector<WrittenFile>
+        drop_ins;  ///< conf.d/*.toml, in the order of their names; what a fleet's server may fill
+    std::vector<WrittenFile> sums;        ///< *.sha256 beside those
+    std::vector<Diagnostic> diagnostics;  ///< of what could not be read, or seems not to be whole
+
+    bool none() const { return own.empty() && drop_ins.empty() && diagnostics.empty(); }
+};
+
+/// Reads the files, by the rules of read_written_file(); in conf.d symbolic links do not count. What does not exist is skipped,
+/// so are names that begin with a dot.
+ExhibitFiles read_exhibit_files(const std::filesystem::path& folder);
+
+/// What the files say, and everything that is wrong: of each file, then of all together.
+struct ExhibitReading {
+    LoadedExhibit loaded;
+    std::vector<Diagnostic> diagnostics;
+};
+
+/// Merges what the binary ships (config/exhibit.toml), exhibit.toml and conf.d in their order; the later wins, key by key.
+/// max_force_n can only be lowered in conf.d, and the stop input is not set there at all. A scene file that is named by a relative path is sought from the folder.
+ExhibitReading read_exhibit(const ExhibitFiles& files);
+
+inline constexpr const char* kConfigFolder = "/etc/eddy";
+
+/// Both of the above; throws ConfigError, with everything that is wrong.
+LoadedExhibit load_exhibit(const std::filesystem::path& folder = kConfigFolder);
 
 /// What `file` alone would set, merged over what the binary ships. Throws as load_exhibit() does.
 LoadedExhibit load_exhibit_file(const std::filesystem::path& file);
 
-/// Whether a file, of which nothing is said, has a table that is an exhibit's ([falcon]) and no scene's. Throws ConfigError if it
-/// cannot be read.
-bool holds_an_exhibit_table(const std::string& file);
+/// A key whose value is another one, and when the new one counts.
+struct KeyChange {
+    std::string key;
+    TakesEffect takes_effect = TakesEffect::Process;
+    std::string from, to;  ///< as TOML; of a list of tables: how many
+    bool operator==(const KeyChange&) const = default;
+};
+std::vector<KeyChange> changed_keys(Exhibit from, Exhibit to);
+
+/// `next`, but with the values of `running` where new ones count only after a restart.
+Exhibit without_restart(Exhibit running, Exhibit next);
+
+/// Whether an exhibit's settings have a value, or list of tables, of this name at the top; or a table.
+bool is_exhibit_key(std::string_view name);
+bool is_exhibit_table(std::string_view name);
 
 /// The settings as TOML; with `origins`, a comment after each value says where it came from.
 std::string print_exhibit(Exhibit exhibit, const Origins* origins = nullptr);
+
+/// All keys of the settings as markdown tables (the end of docs/config.md).
+std::string exhibit_reference();
+/// The same as a JSON Schema (docs/exhibit.schema.json), for editors.
+std::string exhibit_schema();
 
 }  // namespace eddy

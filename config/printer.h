@@ -1,5 +1,5 @@
 #pragma once
-#include "config/value.h"
+#include "config/takes_effect.h"
 
 namespace eddy {
 
@@ -37,6 +37,8 @@ class Printer {
                      std::string_view doc, const Range& range = {}) {
         if (applies) value(key, field, doc, range);
     }
+    void takes_effect(TakesEffect) {}
+
     template <class Struct>
     void word_or_table(std::string_view key, Struct& field, std::string_view doc) {
         Struct word_alone{};

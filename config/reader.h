@@ -1,6 +1,7 @@
 #pragma once
 #include "config/document.h"
 #include "config/nearest.h"
+#include "config/takes_effect.h"
 #include "config/value.h"
 
 namespace eddy {
@@ -30,6 +31,7 @@ struct Findings {
 ///   word_or_table  a struct whose key `kind` is a word: a table, or that word alone
 ///   uniform    a struct of word_or_tables: a table, or one word that stands for all
 ///   list       structs under [[key]]
+///   takes_effect  when new values of the keys that follow count, those of tables among them too; an exhibit's only
 class Reader {
   public:
     Reader(const Node& table, std::string path, Findings& findings)
@@ -64,6 +66,8 @@ class Reader {
                      std::string_view doc, const Range& range = {}) {
         value(key, field, doc, range);
     }
+
+    void takes_effect(TakesEffect) {}
 
     template <class Struct>
     void table(std::string_view key, Struct& field, std::string_view /*doc*/) {

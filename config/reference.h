@@ -1,14 +1,24 @@
 #pragma once
 #include <utility>
 
+#include "config/takes_effect.h"
 #include "config/value.h"
 
 namespace eddy {
 
 /// The visitor that writes the reference: one markdown table for each table of the schema, with each key's
-/// type, range, default and meaning. It describes a struct as its constructor leaves it.
+/// type, range, default and meaning. It describes a struct as its constructor leaves it. `Keys::OfExhibit` have two columns
+/// more: the unit, and when a new value takes effect.
 class Reference {
   public:
+    enum class Keys { OfScene, OfExhibit };
+
+    /// Keys that do not say when they take effect do so when the program starts again.
+    explicit Reference(Keys keys = Keys::OfScene, TakesEffect takes_effect = TakesEffect::Process)
+        : keys_(keys), takes_effect_(takes_effect) {}
+
+    void takes_effect(TakesEffect when) { takes_effect_ = when; }
+
     template <class T>
     void value(std::string_view key, const T& field, std::string_view doc, const Range& range = {}) {
         row<T>(key, range, code(to_toml(field)), doc);
@@ -99,12 +109,14 @@ class Reference {
     template <class Struct>
     void nested(std::string_view key, const char* open, const char* close, std::string_view doc,
                 Struct& field) {
-        Reference inside;
+        Reference inside(keys_, takes_effect_);
         inside.header_ = fmt::format("{}{}.", header_, key);
         describe(inside, field);
         tables_ += fmt::format("\n## `{}{}{}{}`\n\n{}\n\n{}", open, header_, key, close, doc, inside.text());
     }
 
+    Keys keys_;
+    TakesEffect takes_effect_;
     bool described_ = false;  // a word_or_table
     std::string header_;
     std::string rows_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cmake/embedded.h"
+#include "config/exhibit.h"
 #include "config/override.h"
 #include "config/printer.h"
 #include "config/reference.h"
@@ -86,8 +87,9 @@ LoadedScene read_scene(std::string_view text, const std::string& file,
 bool holds_a_scene(const std::string& file) {
     const Node document = parse_toml(read_file(file), file);
     return std::any_of(document.children.begin(), document.children.end(), [](const Node& entry) {
-        return entry.kind == Node::Kind::Table || entry.kind == Node::Kind::List || entry.key == "title" ||
-               entry.key == "description";
+        if (entry.kind == Node::Kind::Table) return !is_exhibit_table(entry.key);
+        if (entry.kind == Node::Kind::List) return !is_exhibit_key(entry.key);
+        return entry.key == "title" || entry.key == "description";
     });
 }
 
