@@ -10,7 +10,7 @@
 namespace eddy {
 
 int check_config(const std::string& file) {
-    if (holds_a_scene(file) && !holds_an_exhibit_table(file)) {
+    if (holds_a_scene(file)) {
         const Scene scene = load_scene(is_scene_file(file) ? file : "./" + file).scene;
         BodySchedule{scene};  // reads the paths
         fluid_setup(scene);   // reads the meshes and the flow at the start

@@ -67,13 +67,6 @@ TEST_F(ExhibitFolder, ADropInCanLowerTheCeilingOfTheForceAndNotRaiseIt) {
     EXPECT_THAT(complaints([&] { load_exhibit(folder_); }), testing::SizeIs(1));
 }
 
-TEST_F(ExhibitFolder, AFileWithATableOfTheExhibitsIsNotTakenForAScene) {
-    EXPECT_TRUE(holds_an_exhibit_table(write("a.toml", "[falcon]\n")));
-    EXPECT_FALSE(holds_an_exhibit_table(write("b.toml", "[tank]\n")));
-    EXPECT_FALSE(holds_an_exhibit_table(write("c.toml", "falcon = 1\n")));
-    EXPECT_THROW(holds_an_exhibit_table((folder_ / "absent.toml").string()), ConfigError);
-}
-
 TEST_F(ExhibitFolder, MistakesNameTheFileTheyAreIn) {
     const std::string main = write("exhibit.toml", "scen = \"stir\"\n");
     const std::string drop_in = write("conf.d/10-site.toml", "\nhaptics = \"falcn\"\nmax_force_n = 9\n");
