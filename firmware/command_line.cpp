@@ -23,4 +23,8 @@ void add_set(CLI::App& verb, std::vector<std::string>& set) {
         ->take_all();
 }
 
+void add_config(CLI::App& verb, std::string& folder, const std::string& help) {
+    verb.add_option("--config", folder, help)->type_name("DIR")->capture_default_str();
+}
+
 }  // namespace eddy

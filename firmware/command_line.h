@@ -36,4 +36,7 @@ CLI::Validator number_from(double low, double high);
 /// --set, of verbs that read a scene.
 void add_set(CLI::App& verb, std::vector<std::string>& set);
 
+/// --config, of verbs that read an exhibit's settings.
+void add_config(CLI::App& verb, std::string& folder, const std::string& help);
+
 }  // namespace eddy

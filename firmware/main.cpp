@@ -31,9 +31,9 @@ struct CommandLine {
     ReplayOptions replay;
     RtSelftestOptions rt_selftest;
     CLI::App* calibrate = nullptr;
-    std::string check_file, print_scene;
+    std::string check_file, check_folder, print_scene, print_folder = kConfigFolder;
     std::vector<std::string> print_set;
-    bool print_origin = false, print_keys = false;
+    bool print_origin = false, print_keys = false, print_exhibit_keys = false, print_exhibit_schema = false;
 
     CommandLine() {
         app.set_version_flag("--version", fmt::format("eddy {} ({})", EDDY_VERSION, kBuiltFrom));
@@ -55,9 +55,11 @@ struct CommandLine {
         add_haptics();
         add_replay();
         add_rt_selftest();
-        auto* check =
-            app.add_subcommand("check-config", "Check a scene or exhibit file without touching any device");
-        check->add_option("FILE", check_file, "the file to check")->required();
+        auto* check = app.add_subcommand(
+            "check-config",
+            "Check a scene or exhibit file, or a whole folder of settings, without touching any device");
+        check->add_option("FILE", check_file, "the file to check");
+        add_config(*check, check_folder, "in place of FILE: check this folder of settings, scene and all");
         auto* print =
             app.add_subcommand("print-config", "Show the merged exhibit settings, or all keys of a scene");
         print->add_option("SCENE", print_scene,
@@ -66,6 +68,10 @@ struct CommandLine {
         print->add_flag("--origin", print_origin, "say for each value where it was written");
         print->add_flag("--keys", print_keys,
                         "list every key a scene may have, with range, default and meaning");
+        print->add_flag("--exhibit-keys", print_exhibit_keys,
+                        "the same for the exhibit's settings, and when a new value takes effect");
+        print->add_flag("--exhibit-schema", print_exhibit_schema, "the same as a JSON Schema, for editors");
+        add_config(*print, print_folder, "the exhibit's settings are in this folder");
     }
 
     void add_run() {
@@ -76,6 +82,7 @@ struct CommandLine {
         verb->option_defaults()->take_last();  // script/run gives defaults that the user's options follow
         verb->add_option("--scene", run.scene, "shipped scene or file (print-config lists all keys)");
         add_set(*verb, run.set);
+        add_config(*verb, run.config, "the exhibit's settings are in this folder");
         choose(*verb->add_option("--display", run.display, "where the picture goes"),
                words_of(DisplayChoice{}));
         choose(*verb->add_option("--haptics", run.haptics, "what the hand holds"), words_of(HapticsChoice{}));
@@ -340,6 +347,12 @@ struct CommandLine {
         return calibrate_falcon(falcon);
     }
 
+    int act_on_check() {
+        if (check_file.empty() == check_folder.empty())
+            throw InputError("check-config: name a FILE, or a folder of settings with --config DIR");
+        return check_file.empty() ? check_config_folder(check_folder) : check_config(check_file);
+    }
+
     int act() {
         if (app.got_subcommand("run")) return eddy::run(run);
         if (app.got_subcommand("simulate")) return eddy::simulate(simulate);
@@ -354,8 +367,10 @@ struct CommandLine {
         if (app.got_subcommand("haptics")) return study_haptics(haptics);
         if (app.got_subcommand("replay")) return eddy::replay(replay);
         if (app.got_subcommand("rt-selftest")) return eddy::rt_selftest(rt_selftest);
-        if (app.got_subcommand("check-config")) return check_config(check_file);
-        return print_keys ? print_schema() : print_config(print_scene, print_set, print_origin);
+        if (app.got_subcommand("check-config")) return act_on_check();
+        if (print_exhibit_keys) return eddy::print_exhibit_keys();
+        if (print_exhibit_schema) return eddy::print_exhibit_schema();
+        return print_keys ? print_schema() : print_config(print_folder, print_scene, print_set, print_origin);
     }
 };
 

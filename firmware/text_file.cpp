@@ -1,14 +1,13 @@
 #include "firmware/text_file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <system_error>
 
 namespace eddy {
 
@@ -25,29 +24,22 @@ std::string read_text_file(const std::filesystem::path& file) {
     return text;
 }
 
-void replace_text_file(const std::filesystem::path& file, std::string_view text) {
+void replace_text_file(const std::filesystem::path& file, std::string_view text, Disk& disk) {
     std::filesystem::path beside = file;
     beside += ".new";
-    const auto fail = [&](const char* what) {
-        const int reason = errno;
-        ::unlink(beside.c_str());
-        throw std::runtime_error(
-            fmt::format("{}: cannot be {}: {}", file.string(), what, std::strerror(reason)));
-    };
-    const int out = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-    if (out < 0) fail("created");
-    while (!text.empty()) {
-        const ssize_t written = ::write(out, text.data(), text.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) {
-            ::close(out);
-            fail("written");
+    try {
+        disk.write(beside, text);
+        disk.rename(beside, file);
+        disk.flush_folder(file.parent_path());
+    } catch (const std::system_error& error) {
+        // "created: No such file": the system's own words come last.
+        const std::string what = error.what();
+        try {
+            disk.remove(beside);
+        } catch (const std::system_error&) {  // the first trouble counts
         }
-        text.remove_prefix(static_cast<std::size_t>(written));
+        throw std::runtime_error(fmt::format("{}: cannot be {}", file.string(), what));
     }
-    const bool flushed = ::fsync(out) == 0;
-    if (::close(out) != 0 || !flushed) fail("written to the disk");
-    if (::rename(beside.c_str(), file.c_str()) != 0) fail("replaced");
 }
 
 bool is_folder(const std::filesystem::path& folder) {

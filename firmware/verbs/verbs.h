@@ -93,7 +93,8 @@ int study_haptics(const HapticsOptions& options);
 enum class ClockChoice { Real, Stepped };
 
 struct RunOptions {
-    std::string scene;  ///< empty: what the exhibit's configuration says
+    std::string config = kConfigFolder;  ///< folder of the exhibit's settings
+    std::string scene;                   ///< empty: what the exhibit's configuration says
     std::vector<std::string> set;
     std::optional<DisplayChoice> display;
     std::optional<HapticsChoice> haptics;
@@ -148,8 +149,15 @@ struct RtSelftestOptions {
 int rt_selftest(const RtSelftestOptions& options);
 
 int check_config(const std::string& file);
-int print_config(const std::string& scene, const std::vector<std::string>& set, bool origin);
+/// Settings, the scene they name and what that names.
+int check_config_folder(const std::string& folder);
+int print_config(const std::string& folder, const std::string& scene, const std::vector<std::string>& set,
+                 bool origin);
 /// The reference of scene files as markdown (docs/scene.md).
 int print_schema();
+/// Of the exhibit's settings (the end of docs/config.md).
+int print_exhibit_keys();
+/// The same for editors (docs/exhibit.schema.json).
+int print_exhibit_schema();
 
 }  // namespace eddy

@@ -1,0 +1,271 @@
+#include "firmware/exhibit/config_intake.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <utility>
+
+#include "config/override.h"
+#include "firmware/text_file.h"
+
+namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string boot_of_this_machine() {
+    try {
+        return read_text_file("/proc/sys/kernel/random/boot_id");
+    } catch (const std::runtime_error&) {
+        return "unknown";
+    }
+}
+
+std::string utc_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[40];
+    return {text, std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc)};
+}
+
+template <class T>
+bool is_ready(const std::future<T>& future) {
+    return future.valid() && future.wait_for(0s) == std::future_status::ready;
+}
+
+bool contains(const std::vector<std::string>& all, const std::string& one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+bool same_scene_files(const ConfigFiles& a, const ConfigFiles& b) {
+    return a.scene == b.scene && a.refers == b.refers;
+}
+
+Diagnostic of_folder(const std::filesystem::path& folder, std::string message) {
+    return diagnose({folder.string(), 0, 0}, "", std::move(message));
+}
+
+}  // namespace
+
+bool ConfigOffer::needs_new_scene() const {
+    return std::any_of(changes.begin(), changes.end(),
+                       [](const KeyChange& c) { return c.takes_effect == TakesEffect::Scene; });
+}
+
+ConfigIntake::ConfigIntake(Setup setup, Disk& disk)
+    : setup_(std::move(setup)),
+      memory_(setup_.state_dir.empty() ? std::filesystem::path() : setup_.state_dir / "config",
+              setup_.boot.empty() ? boot_of_this_machine() : setup_.boot, disk) {}
+
+void ConfigIntake::refuse(ConfigResult result, std::vector<Diagnostic> errors) {
+    report_.result = result;
+    report_.errors = std::move(errors);
+    ++report_.refused;
+}
+
+std::optional<ConfigSet> ConfigIntake::good_one_in_folder() {
+    ConfigSet set = read_config_set(setup_.folder, setup_.orders);
+    watch(set);
+    for (const Diagnostic& d : set.diagnostics)
+        if (d.file == kOverrideFile) throw ConfigError(set.diagnostics);
+    const bool seen = report_.hash == set.hash;
+    report_.hash = set.hash;
+    if (!seen) {
+        if (auto why = objection(set))
+            refuse(why->result, std::move(why->errors));
+        else if (!set.files.exhibit.none())
+            return set;
+    }
+    return std::nullopt;
+}
+
+std::optional<ConfigIntake::Objection> ConfigIntake::objection(const ConfigSet& set) const {
+    const auto because = [this](ConfigResult result, const char* why) {
+        return Objection{result, {of_folder(setup_.folder, why)}};
+    };
+    if (set.files.exhibit.none()) {
+        const bool had_some = running_ ? report_.source != ConfigSource::Factory : last_good_.has_value();
+        if (!had_some) return std::nullopt;
+        return because(ConfigResult::Refused,
+                       "no settings are here any more; for the factory's put an exhibit.toml "
+                       "here that holds a comment");
+    }
+    if (!set.good()) return Objection{ConfigResult::Refused, set.diagnostics};
+    if (contains(refused_, set.hash))
+        return because(ConfigResult::Refused, "these very settings could not be built before; change them");
+    if (memory_.black_listed(set.hash))
+        return because(ConfigResult::BlackListed,
+                       "the program died within 30 s of taking these very settings; change them");
+    return std::nullopt;
+}
+
+ConfigOffer ConfigIntake::start() {
+    if (!setup_.factory_only) {
+        if (!std::exchange(started_, true)) {
+            memory_.judge();
+            last_good_ = memory_.last_good(setup_.orders);
+        }
+        if (auto set = good_one_in_folder()) return offer(std::move(*set), ConfigSource::New);
+        if (last_good_ && !contains(refused_, last_good_->hash) && !memory_.black_listed(last_good_->hash))
+            return offer(*last_good_, ConfigSource::LastGood);
+    }
+    ConfigSet set = factory_set(setup_.orders);
+    if (contains(refused_, set.hash)) throw ConfigError(report_.errors);
+    if (!set.good()) throw ConfigError(set.diagnostics);
+    return offer(std::move(set), ConfigSource::Factory);
+}
+
+ConfigOffer ConfigIntake::offer(ConfigSet set, ConfigSource source) {
+    ConfigOffer offer{set.hash, source, set.exhibit.exhibit, set.scene};
+    if (running_) {
+        const Exhibit& runs = running_->exhibit.exhibit;
+        offer.exhibit = without_restart(runs, set.exhibit.exhibit);
+        offer.changes = changed_keys(runs, set.exhibit.exhibit);
+        const bool renamed = std::any_of(offer.changes.begin(), offer.changes.end(),
+                                         [](const KeyChange& c) { return c.key == "scene"; });
+        if (!renamed && !same_scene_files(set.files, running_->files))
+            offer.changes.push_back(
+                {"scene", TakesEffect::Scene, to_toml(runs.scene), to_toml(set.exhibit.exhibit.scene)});
+    }
+    open_ = std::move(set);
+    open_source_ = source;
+    if (source == ConfigSource::New) {
+        report_.result = ConfigResult::Trying;
+        report_.errors.clear();
+    }
+    return offer;
+}
+
+void ConfigIntake::accepted(const std::string& hash, Instant now) {
+    if (!open_ || open_->hash != hash) return;
+    report_.pending_restart.clear();
+    if (running_) {
+        const Exhibit& runs = running_->exhibit.exhibit;
+        for (KeyChange& change : changed_keys(runs, open_->exhibit.exhibit))
+            if (change.takes_effect > TakesEffect::Scene)
+                report_.pending_restart.push_back(std::move(change));
+        open_->exhibit.exhibit = without_restart(runs, open_->exhibit.exhibit);
+    }
+    const bool proven = open_source_ != ConfigSource::New || hash == memory_.last_good_hash();
+    if (proven)
+        memory_.end_probation();
+    else
+        memory_.begin_probation(hash);
+    probation_until_ = proven ? std::nullopt : std::optional(now + kProbation);
+    running_ = std::move(open_);
+    open_.reset();
+    if (open_source_ == ConfigSource::New) report_.result = ConfigResult::Applied;
+    report_.source = open_source_;
+    report_.running_hash = hash;
+    report_.applied_at = utc_now();
+    report_.probation = !proven;
+    ++report_.applied;
+    publish();
+}
+
+void ConfigIntake::refused(const std::string& hash, const std::string& reason) {
+    if (!open_ || open_->hash != hash) return;
+    refused_.push_back(hash);
+    const bool in_folder = open_source_ == ConfigSource::New;
+    open_.reset();
+    const Diagnostic blame = of_folder(setup_.folder, reason);
+    if (in_folder)
+        refuse(ConfigResult::Refused, {blame});
+    else
+        report_.errors.push_back(blame);
+    publish();
+}
+
+void ConfigIntake::stopped() {
+    if (keeping_.valid()) keeping_.wait();
+    if (probation_until_) memory_.end_probation();
+    probation_until_.reset();
+}
+
+std::optional<ConfigOffer> ConfigIntake::consider(ConfigSet set) {
+    watch(set);
+    if (set.hash == report_.hash) return std::nullopt;
+    report_.hash = set.hash;
+    if (auto why = objection(set)) {
+        refuse(why->result, std::move(why->errors));
+    } else if (set.hash != report_.running_hash || report_.source == ConfigSource::LastGood) {
+        ConfigOffer made = offer(std::move(set), ConfigSource::New);
+        publish();
+        return made;
+    } else {
+        report_.result = ConfigResult::Applied;  // what runs is back
+        report_.errors.clear();
+    }
+    publish();
+    return std::nullopt;
+}
+
+std::optional<ConfigOffer> ConfigIntake::poll(Instant now) {
+    if (setup_.factory_only) return std::nullopt;
+    if (is_ready(keeping_)) {
+        keeping_.get();
+        publish();
+    }
+    if (keeping_.valid()) return std::nullopt;
+    if (probation_until_ && now >= *probation_until_ && !open_) {
+        probation_until_.reset();
+        report_.probation = false;
+        const bool whole = report_.pending_restart.empty();
+        keeping_ = std::async(std::launch::async, [this, whole] {
+            if (whole) memory_.keep_as_last_good(*running_);
+            memory_.end_probation();
+        });
+        return std::nullopt;
+    }
+
+    const FolderWatch::News news = watch_.poll(now);
+    if (news.changed) quiet_until_ = now + kQuiet;
+    if (open_) return std::nullopt;
+    if (is_ready(reading_)) {
+        ConfigSet set = reading_.get();
+        // Written to while it was read: the next reading counts.
+        if (!quiet_until_) return consider(std::move(set));
+    }
+    if (quiet_until_ && now >= *quiet_until_ && !news.writing && !reading_.valid()) {
+        quiet_until_.reset();
+        reading_ = std::async(std::launch::async, read_config_set, setup_.folder, setup_.orders);
+    }
+    return std::nullopt;
+}
+
+void ConfigIntake::watch(const ConfigSet& set) {
+    std::vector<std::filesystem::path> folders{setup_.folder, setup_.folder / "conf.d"};
+    const auto add = [&folders](const std::filesystem::path& file) {
+        std::error_code none;
+        folders.push_back(std::filesystem::absolute(file).parent_path());
+        // What a link leads to is written to where it lies.
+        if (const auto real = std::filesystem::canonical(file, none); !none)
+            folders.push_back(real.parent_path());
+    };
+    for (const auto* files : {&set.files.exhibit.own, &set.files.scene, &set.files.refers})
+        for (const WrittenFile& file : *files) add(file.path);
+    // One that is missing may come.
+    for (const Diagnostic& d : set.diagnostics)
+        if (d.file.find('/') != std::string::npos && d.line == 0) add(d.file);
+    watch_.watch(std::move(folders));
+}
+
+void ConfigIntake::publish() {
+    report_.unreadable_state = memory_.unreadable();
+    report_.failed_writes = memory_.failed_writes();
+    report_.trouble = memory_.trouble();
+    std::vector<std::filesystem::path> folders;
+    std::filesystem::path run_dir = setup_.run_dir;
+    if (run_dir.empty() && running_) run_dir = running_->exhibit.exhibit.run_dir;
+    if (is_folder(run_dir)) {
+        std::error_code none;
+        std::filesystem::create_directory(run_dir / "status", none);
+        folders.push_back(run_dir / "status");
+    }
+    if (is_folder(setup_.folder / "status")) folders.push_back(setup_.folder / "status");
+    write_config_report(folders, report_);
+}
+
+}  // namespace eddy
