@@ -10,6 +10,9 @@ target_compile_definitions(glm_headers INTERFACE GLM_FORCE_XYZW_ONLY GLM_FORCE_E
 # What a driver vendor or the kernel's device manager imposes stays dynamic.
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(GLESV2 REQUIRED IMPORTED_TARGET glesv2)
+pkg_check_modules(LIBDRM REQUIRED IMPORTED_TARGET libdrm)
+pkg_check_modules(GBM REQUIRED IMPORTED_TARGET gbm)
+pkg_check_modules(LIBUDEV REQUIRED IMPORTED_TARGET libudev)
 
 # static_library(name module archive...): an interface target for the static archives of a pkg-config module.
 function(static_library name module)

@@ -47,7 +47,16 @@ class HeadlessDisplay final : public Display {
     }
     void* native_display() const override { return device_; }
     void* native_window() const override { return nullptr; }
+    std::optional<Extent> size_px() const override { return std::nullopt; }
+    long window_number() const override { return 0; }
+    void refuse_window() override {}
+    DisplayState poll(Instant) override { return awake_ ? DisplayState::NoMonitor : DisplayState::Asleep; }
+    bool wants_frame() const override { return false; }
     void present() override {}
+    void set_awake(bool awake) override { awake_ = awake; }
+    DisplayCounters counters() const override { return {}; }
+    std::string problem() const override { return ""; }
+    std::string screen_id() const override { return ""; }
     std::string describe() const override {
         return device_ ? "no screen; GPU through EGL_EXT_platform_device"
                        : "no screen; EGL_MESA_platform_surfaceless";
@@ -55,6 +64,7 @@ class HeadlessDisplay final : public Display {
 
   private:
     EGLDeviceEXT device_;
+    bool awake_ = true;
 };
 
 }  // namespace
