@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 constexpr const char* kCsv = "stability.csv";
 
 Order order_of(const StabilityOptions& options) {
-    return {options.full    ? Extent::Full
-            : options.quick ? Extent::Quick
-                            : Extent::Usual,
+    return {options.full    ? stability::Extent::Full
+            : options.quick ? stability::Extent::Quick
+                            : stability::Extent::Usual,
             options.cases, options.grids};
 }
 
