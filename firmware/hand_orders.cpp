@@ -1,5 +1,7 @@
 #include "firmware/hand_orders.h"
 
+#include <algorithm>
+
 namespace eddy {
 
 void HandOrders::give(const HapticOrders& orders) {
@@ -8,7 +10,7 @@ void HandOrders::give(const HapticOrders& orders) {
     orders_.resets = kept.resets;
     orders_.stop = kept.stop;
     orders_.restarts = kept.restarts;
-    exchange_.orders.publish(orders_);
+    publish();
 }
 
 std::optional<GateReason> HandOrders::cause_gone(Instant now, const LoopReport& report) {
@@ -23,19 +25,37 @@ std::optional<GateReason> HandOrders::cause_gone(Instant now, const LoopReport& 
     return reason;
 }
 
+void HandOrders::publish() {
+    HapticOrders orders = orders_;
+    orders.enabled = orders.enabled && allowed_;
+    orders.most_n = std::min(orders.most_n, ceiling_n_);
+    exchange_.orders.publish(orders);
+}
+
+void HandOrders::allow(bool force) {
+    if (force == allowed_) return;
+    allowed_ = force;
+    publish();
+}
+
+void HandOrders::set_ceiling(double most_n) {
+    ceiling_n_ = most_n;
+    publish();
+}
+
 void HandOrders::release_latch() {
     ++orders_.resets;
-    exchange_.orders.publish(orders_);
+    publish();
 }
 
 void HandOrders::stop(bool pressed) {
     orders_.stop = pressed;
-    exchange_.orders.publish(orders_);
+    publish();
 }
 
 void HandOrders::restart() {
     ++orders_.restarts;
-    exchange_.orders.publish(orders_);
+    publish();
 }
 
 }  // namespace eddy

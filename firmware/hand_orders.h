@@ -16,6 +16,9 @@ class HandOrders {
 
     /// From now on; but for the stop input and the counts of resets and restarts, which are kept here.
     void give(const HapticOrders& orders);
+    /// The exhibit's own word, over whatever a scene orders: whether there may be a force at all, and the most of it.
+    void allow(bool force);
+    void set_ceiling(double most_n);
     /// With each report: the cause of a latch, if it has been gone for so long that the latch may be released.
     std::optional<GateReason> cause_gone(Instant now, const LoopReport& report);
     void release_latch();
@@ -24,8 +27,12 @@ class HandOrders {
     void restart();
 
   private:
+    void publish();
+
     HapticExchange& exchange_;
-    HapticOrders orders_;
+    HapticOrders orders_;  ///< as they were given
+    bool allowed_ = true;
+    double ceiling_n_ = kDeviceMaxForceN;
     Instant latched_since_{0};
 };
 

@@ -15,8 +15,14 @@ constexpr Instant kPageStays = 1s;
 }  // namespace
 
 View::View(gles::Gpu& gpu, const gles::FluidSetup& fluid, const Scene& scene, bool shows_cost)
-    : renderer_(gpu, fluid, render_setup(scene)), caption_(gpu, renderer_.picture()) {
-    if (shows_cost) overlay_.emplace(gpu, renderer_.picture());
+    : gpu_(gpu), renderer_(gpu, fluid, render_setup(scene)), caption_(gpu, renderer_.picture()) {
+    show_cost(shows_cost);
+}
+
+void View::show_cost(bool shown) {
+    if (shown && !overlay_) overlay_.emplace(gpu_, renderer_.picture());
+    if (!shown) overlay_.reset();
+    page_due_ = Instant(0);
 }
 
 void View::draw(const gles::Fluid& fluid, const std::vector<gles::BodyState>& bodies, Instant now,

@@ -14,12 +14,14 @@ class View {
     /// `shows_cost`: the page "What does accuracy cost?" lies over it.
     View(gles::Gpu& gpu, const gles::FluidSetup& fluid, const Scene& scene, bool shows_cost);
 
+    void show_cost(bool shown);
     /// `figures` are asked for when the page is due; `caption`, if any, stands under the picture.
     void draw(const gles::Fluid& fluid, const std::vector<gles::BodyState>& bodies, Instant now,
               const std::function<CostFigures()>& figures, const std::string& caption = {});
     const gles::Renderer& renderer() const { return renderer_; }
 
   private:
+    gles::Gpu& gpu_;
     gles::Renderer renderer_;
     std::optional<gles::Text> overlay_;
     gles::Text caption_;

@@ -12,6 +12,9 @@ class Views {
     Views(gles::Gpu& gpu, const Scene& scene, bool shows_cost)
         : gpu_(gpu), scene_(scene), shows_cost_(shows_cost) {}
 
+    /// Whether the page "What does accuracy cost?" lies over the picture, from now on.
+    void show_cost(bool shown);
+
     /// That of this fluid's grid; made if it is the first.
     View& of(const gles::Fluid& fluid);
     /// Draws this fluid unless its grid has been drawn before: the driver compiles now what it would during the show.

@@ -77,6 +77,7 @@ void Act::give_orders() {
         if (quality.cells < coarsest.cells) coarsest = quality;
     HapticOrders orders = orders_for(with_quality(scene_, coarsest), show_.fluid().setup());
     orders.gain = gain_.gain();
+    orders.most_n = scene_.haptics.max_force_n;
     orders.enabled = show_.answers() > stale_answers_;
     show_.set_gain(orders.gain);
     orders_->give(orders);

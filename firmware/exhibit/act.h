@@ -47,6 +47,7 @@ class Act {
     const gles::Renderer& draw(Instant now, const std::string& caption = {});
     /// The gain follows the rate at which the fluid answers.
     void adjust_gain();
+    void show_cost(bool shown) { views_.show_cost(shown); }
     /// Back to the start of the scene. There is no force until the fluid has answered.
     void reset();
 

@@ -12,11 +12,11 @@
 namespace eddy {
 namespace {
 
-constexpr std::string_view kFirstLine = "eddy flight 1";
+constexpr std::string_view kFirstLine = "eddy flight 2";
 /// An hour; those that are written have six seconds.
 constexpr std::size_t kMostTicks = 3'600'000;
 constexpr std::string_view kColumns =
-    "# orders: enabled gain, tank under the device's origin x y z, scale, lowest x y z, highest x y z [m], "
+    "# orders: enabled gain most [N], tank under the device's origin x y z, scale, lowest x y z, highest x y z [m], "
     "resets stop restarts\n"
     "# fluid: force x y z [N], torque x y z [N m], number, for the pose of [ns], period [s], velocity x y z "
     "[m/s],\n"
@@ -147,7 +147,7 @@ void each(F&& f, S& s) requires std::is_same_v<std::remove_const_t<S>, HapticLoo
 
 template <class F, class S>
 void each(F&& f, S& o) requires std::is_same_v<std::remove_const_t<S>, HapticOrders> {
-    f(o.enabled), f(o.gain), f(o.tank_from_device.centre_m), f(o.tank_from_device.scale);
+    f(o.enabled), f(o.gain), f(o.most_n), f(o.tank_from_device.centre_m), f(o.tank_from_device.scale);
     f(o.lowest_m), f(o.highest_m), f(o.resets), f(o.stop), f(o.restarts);
 }
 

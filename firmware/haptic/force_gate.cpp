@@ -18,7 +18,7 @@ glm::dvec3 ForceGate::operator()(const GateInput& in, Seconds dt) {
     switch (reason_) {
         case GateReason::Open:
         case GateReason::Starting:
-            return sent_n_ = follow(in.force_n, std::min(dt, kLongestRise));
+            return sent_n_ = follow(in, std::min(dt, kLongestRise));
         case GateReason::FluidStale:
             return sent_n_ = fade(dt);
         case GateReason::TooFast:
@@ -59,9 +59,10 @@ glm::dvec3 ForceGate::fade(Seconds dt) {
     return before > 0.0 ? sent_n_ * (strength_ / before) : glm::dvec3(0.0);
 }
 
-glm::dvec3 ForceGate::follow(const glm::dvec3& wanted_n, Seconds dt) {
-    const glm::dvec3 clamped = shorten(wanted_n, limits_.max_force_n);
-    if (clamped != wanted_n) ++counters_.clamped;
+glm::dvec3 ForceGate::follow(const GateInput& in, Seconds dt) {
+    const double most_n = std::min(limits_.max_force_n, std::max(0.0, in.most_n));
+    const glm::dvec3 clamped = shorten(in.force_n, most_n);
+    if (clamped != in.force_n) ++counters_.clamped;
 
     strength_ = std::min(1.0, strength_ + dt / kSoftStart);
     const glm::dvec3 step = strength_ * clamped - sent_n_;

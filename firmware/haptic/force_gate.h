@@ -63,6 +63,7 @@ struct GateLimits {
 
 struct GateInput {
     glm::dvec3 force_n{0.0};     ///< wanted on the hand, Device frame
+    double most_n = kDeviceMaxForceN;  ///< for now; GateLimits::max_force_n holds besides
     double speed_m_s = 0.0;      ///< of the handle; not finite if the reading was not
     bool enabled = false;        ///< dead man's switch: held, running and allowed, said anew each tick
     bool device_ready = false;   ///< Ready and has answered
@@ -93,7 +94,7 @@ class ForceGate {
   private:
     GateReason judge(const GateInput& in);
     glm::dvec3 fade(Seconds dt);
-    glm::dvec3 follow(const glm::dvec3& wanted_n, Seconds dt);
+    glm::dvec3 follow(const GateInput& in, Seconds dt);
 
     GateLimits limits_{};
     GateReason latch_ = GateReason::Open;  // DeviceSilent or NotFinite once seen

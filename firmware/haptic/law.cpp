@@ -76,6 +76,7 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
     out.filtered_n = state.force(in.fluid, fresh, in.orders, hand, dt) +
                      soft_wall_n(in.orders, state.hand.position_m(), state.hand.velocity_m_s());
     const GateInput gate{.force_n = out.filtered_n,
+                         .most_n = in.orders.most_n,
                          .speed_m_s = sound ? glm::length(state.hand.velocity_m_s())
                                             : std::numeric_limits<double>::quiet_NaN(),
                          .enabled = in.orders.enabled,

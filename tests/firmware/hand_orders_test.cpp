@@ -81,5 +81,26 @@ TEST(HandOrders, NeverReleaseAStopByThemselves) {
         EXPECT_FALSE(orders.cause_gone(second * 1s, report_of(GateReason::Stopped)));
 }
 
+TEST(HandOrders, AllowNoMoreThanTheExhibitDoesWhateverASceneOrders) {
+    HapticExchange exchange;
+    HandOrders orders(exchange);
+    HapticOrders scene;
+    scene.enabled = true;
+    scene.most_n = 3.0;
+    orders.give(scene);
+    EXPECT_EQ(exchange.orders.newest().most_n, 3.0);
+    orders.set_ceiling(2.0);
+    EXPECT_EQ(exchange.orders.newest().most_n, 2.0);
+    orders.set_ceiling(4.0);
+    EXPECT_EQ(exchange.orders.newest().most_n, 3.0);
+
+    orders.allow(false);
+    EXPECT_FALSE(exchange.orders.newest().enabled);
+    orders.give(scene);
+    EXPECT_FALSE(exchange.orders.newest().enabled) << "another scene does not open what is closed";
+    orders.allow(true);
+    EXPECT_TRUE(exchange.orders.newest().enabled);
+}
+
 }  // namespace
 }  // namespace eddy

@@ -60,6 +60,20 @@ TEST(ForceGate, ALimitThatIsNotANumberShutsIt) {
     }
 }
 
+TEST(ForceGate, FollowsALowerCeilingWithinTheSlewLimitAndNeverAHigherOneThanItsOwn) {
+    ForceGate gate = opened(glm::dvec3(0.0, 6.0, 0.0), {.max_force_n = 4.0, .slew_n_per_s = 100.0});
+    GateInput in = wanted(glm::dvec3(0.0, 6.0, 0.0));
+    in.most_n = 3.0;
+    EXPECT_NEAR(gate(in, kNominalTick).y, 3.9, 1e-12);
+    EXPECT_NEAR(repeat(gate, in, 9).y, 3.0, 1e-12);
+    in.most_n = 7.0;
+    EXPECT_NEAR(repeat(gate, in, 100).y, 4.0, 1e-12);
+    for (const double bad : {kNan, -1.0}) {
+        in.most_n = bad;
+        EXPECT_NEAR(repeat(gate, in, 100).y, 0.0, 1e-12);
+    }
+}
+
 TEST(ForceGate, SlewsToANewForceAtTheLimit) {
     ForceGate gate = opened(glm::dvec3(0.0), {.slew_n_per_s = 100.0});
     for (int i = 1; i <= 40; ++i)
