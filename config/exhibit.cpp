@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "cmake/embedded.h"
 #include "config/exhibit_keys.h"
@@ -55,6 +56,31 @@ void describe(Visitor& v, GpioConfig& g) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, HoursConfig& h) {
+    constexpr std::string_view kDay =
+        "when it is open: ranges as 09:00-12:00, 13:00-17:00, or closed; empty: all day";
+    v.value("monday", h.monday, kDay);
+    v.value("tuesday", h.tuesday, kDay);
+    v.value("wednesday", h.wednesday, kDay);
+    v.value("thursday", h.thursday, kDay);
+    v.value("friday", h.friday, kDay);
+    v.value("saturday", h.saturday, kDay);
+    v.value("sunday", h.sunday, kDay);
+    v.value("exceptions", h.exceptions,
+            "days that are not like others, as 2026-12-24 09:00-12:00; 2026-12-25 closed");
+}
+
+template <class Visitor>
+void describe(Visitor& v, UnattendedConfig& u) {
+    v.value("idle_after_s", u.idle_after_s,
+            "a handle that nobody touches for so long: the visitor is gone, and the scene begins anew; ten "
+            "seconds before, the screen says so",
+            between(kLeastIdle_s, kMostIdle_s));
+    v.value("metrics_file", u.metrics_file,
+            "figures for Prometheus' node_exporter are written here; empty: eddy.prom in run_dir");
+}
+
+template <class Visitor>
 void describe(Visitor& v, Exhibit& e) {
     v.takes_effect(TakesEffect::Scene);
     v.value("scene", e.scene,
@@ -82,6 +108,10 @@ void describe(Visitor& v, Exhibit& e) {
     v.takes_effect(TakesEffect::Process);
     v.table("falcon", e.falcon, "The Novint Falcon.");
     v.table("gpio", e.gpio, "Button, stop input and lamps.");
+    v.takes_effect(TakesEffect::Live);
+    v.table("hours", e.hours,
+            "Opening hours, by the clock on the wall; not before the machine's clock is synchronised.");
+    v.table("unattended", e.unattended, "What goes on without anybody of the house.");
 }
 
 namespace {
@@ -122,6 +152,22 @@ void check(const Exhibit& exhibit, Findings& findings) {
     };
     require_absolute("state_dir", exhibit.state_dir);
     require_absolute("run_dir", exhibit.run_dir);
+    if (!exhibit.unattended.metrics_file.empty())
+        require_absolute("unattended.metrics_file", exhibit.unattended.metrics_file);
+    const auto require_hours = [&findings](const std::string& day, const std::string& text, auto parse) {
+        try {
+            parse(text);
+        } catch (const std::invalid_argument& error) {
+            findings.blame(place_of(findings.origins, "hours." + day), "hours." + day, error.what());
+        }
+    };
+    const HoursConfig& h = exhibit.hours;
+    const std::pair<const char*, const std::string*> days[] = {
+        {"monday", &h.monday},     {"tuesday", &h.tuesday}, {"wednesday", &h.wednesday},
+        {"thursday", &h.thursday}, {"friday", &h.friday},   {"saturday", &h.saturday},
+        {"sunday", &h.sunday}};
+    for (const auto& [day, text] : days) require_hours(day, *text, parse_day);
+    require_hours("exceptions", h.exceptions, parse_exceptions);
     if (!exhibit.falcon.firmware.empty()) require_absolute("falcon.firmware", exhibit.falcon.firmware);
     check(exhibit.gpio, findings);
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "config/opening_hours.h"
 #include "config/scene_words.h"
 #include "config/takes_effect.h"
 #include "config/value.h"
@@ -76,6 +77,16 @@ struct GpioConfig {
     bool operator==(const GpioConfig&) const = default;
 };
 
+/// A visitor who touches nothing for so long is gone.
+inline constexpr double kLeastIdle_s = 10.0, kMostIdle_s = 600.0;
+
+/// [unattended]: what goes on without anybody of the house.
+struct UnattendedConfig {
+    double idle_after_s = 45.0;
+    std::string metrics_file{};  ///< empty: eddy.prom in run_dir
+    bool operator==(const UnattendedConfig&) const = default;
+};
+
 /// What an exhibit machine is set to. exhibit.cpp has each key's meaning and range, exhibit.toml its value.
 struct Exhibit {
     std::string scene = "jet";  ///< as load_scene() takes it
@@ -90,6 +101,8 @@ struct Exhibit {
     double max_force_n = 4.0;
     FalconConfig falcon{};
     GpioConfig gpio{};
+    HoursConfig hours{};
+    UnattendedConfig unattended{};
     bool operator==(const Exhibit&) const = default;
 };
 

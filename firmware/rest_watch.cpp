@@ -28,6 +28,7 @@ void RestWatch::see(Instant now, const std::optional<glm::dvec3>& hand_m, std::u
     if (!came_or_went && !pressed && !(hand_m && glm::distance(*hand_m, *at_) > kStill_m)) return;
     at_ = hand_m;
     hand_moved_ = now;
+    if (!came_or_went) touched_ = now;
 }
 
 }  // namespace eddy

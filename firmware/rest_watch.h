@@ -31,6 +31,9 @@ class RestWatch {
     /// moving.
     void all_moves_at(double speed_m_s) { still_ = speed_m_s <= still_m_s_; }
 
+    /// Since somebody moved the handle or pressed one of its buttons; a device that comes or goes is not somebody.
+    Instant untouched() const { return now_ - touched_; }
+
     bool nobody_here() const { return now_ - hand_moved_ >= kQuietFor; }
     bool may_rest() const { return nobody_here() && now_ - fluid_moved_ >= kQuietFor; }
 
@@ -39,7 +42,7 @@ class RestWatch {
     bool still_ = false;
     std::optional<glm::dvec3> at_;
     std::uint8_t buttons_ = 0;
-    Instant now_{0}, hand_moved_{0}, fluid_moved_{0};
+    Instant now_{0}, hand_moved_{0}, touched_{0}, fluid_moved_{0};
 };
 
 }  // namespace eddy

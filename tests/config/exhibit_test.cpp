@@ -67,6 +67,14 @@ TEST_F(ExhibitFolder, ADropInCanLowerTheCeilingOfTheForceAndNotRaiseIt) {
     EXPECT_THAT(complaints([&] { load_exhibit(folder_); }), testing::SizeIs(1));
 }
 
+TEST_F(ExhibitFolder, HoursThatNoClockShowsAreRefusedWhereTheyStand) {
+    const std::string main =
+        write("exhibit.toml", "[hours]\nmonday = \"9-17\"\nexceptions = \"Christmas\"\n");
+    EXPECT_THAT(complaints([&] { load_exhibit(folder_); }),
+                ElementsAre(StartsWith(main + ":2:10: hours.monday: '9' is no time"),
+                            StartsWith(main + ":3:14: hours.exceptions: 'Christmas' is no day")));
+}
+
 TEST_F(ExhibitFolder, MistakesNameTheFileTheyAreIn) {
     const std::string main = write("exhibit.toml", "scen = \"stir\"\n");
     const std::string drop_in = write("conf.d/10-site.toml", "\nhaptics = \"falcn\"\nmax_force_n = 9\n");
