@@ -35,7 +35,42 @@ nlohmann::ordered_json to_json(const CostFigures& c) {
     return j;
 }
 
+nlohmann::ordered_json to_json(const Usage& usage) {
+    nlohmann::ordered_json j;
+    for (const UsageCounter& counter : kUsageCounters) j[std::string(counter.name)] = usage.*counter.count;
+    return j;
+}
+
+nlohmann::ordered_json to_json(const VitalSigns& v) {
+    const std::size_t all = FrameTimes::kBounds_s.size();
+    nlohmann::ordered_json j{{"state", to_word(v.state)},
+                             {"opening", v.opening},
+                             {"clock_synchronised", v.clock_synchronised},
+                             {"frames", v.frames.up_to(all)},
+                             {"frames_s", v.frames.sum_s()},
+                             {"config_good", v.config_good},
+                             {"config_taken_at_s", v.config_taken_at_s},
+                             {"config_hash", v.config_hash},
+                             {"gpu_resets", v.gpu_resets},
+                             {"temperature_c", nullptr},
+                             {"today", to_json(v.today)},
+                             {"total", to_json(v.total)}};
+    if (v.temperature_c) j["temperature_c"] = *v.temperature_c;
+    return j;
+}
+
 }  // namespace
+
+std::vector<GuardFigure> guard_figures(const Status& s) {
+    return {{"step_refused", s.guards.step_refused},
+            {"step_shortened", s.guards.step_shortened},
+            {"body_not_finite", s.guards.body_not_finite},
+            {"body_not_unit", s.guards.body_not_unit},
+            {"body_far", s.guards.body_far},
+            {"body_too_fast", s.guards.body_too_fast},
+            {"unsound_steps", s.guards.unsound_steps},
+            {"hand_placed", s.show.placed}};
+}
 
 bool write_status(const std::filesystem::path& file, const Status& s) {
     nlohmann::ordered_json j;
@@ -52,14 +87,7 @@ bool write_status(const std::filesystem::path& file, const Status& s) {
                   {"fastest_m_s", s.show.fastest_m_s},
                   {"sub_steps", s.show.sub_steps},
                   {"most_force_n", s.show.most_force_n}};
-    j["guards"] = {{"step_refused", s.guards.step_refused},
-                   {"step_shortened", s.guards.step_shortened},
-                   {"body_not_finite", s.guards.body_not_finite},
-                   {"body_not_unit", s.guards.body_not_unit},
-                   {"body_far", s.guards.body_far},
-                   {"body_too_fast", s.guards.body_too_fast},
-                   {"unsound_steps", s.guards.unsound_steps},
-                   {"hand_placed", s.show.placed}};
+    for (const GuardFigure& guard : guard_figures(s)) j["guards"][std::string(guard.name)] = guard.count;
     j["cost"] = to_json(s.cost);
     const HapticCounters& c = s.loop.device_counters;
     j["haptics"] = {{"device", s.haptic_device},
@@ -96,6 +124,7 @@ bool write_status(const std::filesystem::path& file, const Status& s) {
                     {"failed_boots", c.failed_boots},
                     {"wrong_echoes", c.wrong_echoes},
                     {"given_up", c.given_up}};
+    j["exhibit"] = to_json(s.vital_signs);
     try {
         replace_text_file(file, j.dump(2) + "\n");
         return true;

@@ -1,0 +1,104 @@
+#include "firmware/exhibit/usage.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "firmware/exhibit/kept.h"
+
+namespace eddy {
+namespace {
+
+constexpr std::string_view kFirstLine = "eddy usage 1";
+constexpr std::string_view kTotal = "total";
+
+std::string date_of(std::time_t time) {
+    std::tm local{};
+    ::localtime_r(&time, &local);
+    char text[16];
+    std::strftime(text, sizeof(text), "%Y-%m-%d", &local);
+    return text;
+}
+
+std::string line_of(std::string_view name, const Usage& usage) {
+    std::string line(name);
+    for (const UsageCounter& counter : kUsageCounters)
+        line += fmt::format(" {} {}", counter.name, usage.*counter.count);
+    return line + '\n';
+}
+
+/// Counters by name: an older or newer program may know others.
+bool read_line(std::istringstream& words, Usage& usage) {
+    std::string name;
+    while (words >> name) {
+        double much = 0.0;
+        if (!(words >> much) || !std::isfinite(much) || much < 0.0) return false;
+        for (const UsageCounter& counter : kUsageCounters)
+            if (counter.name == name) usage.*counter.count = much;
+    }
+    return true;
+}
+
+}  // namespace
+
+UsageBook::UsageBook(const std::filesystem::path& folder) : file_(folder / "usage") {
+    const auto text = kept(file_);
+    if (!text || read(*text)) return;
+    damaged_ = true;
+    total_ = {};
+    days_.clear();
+    std::filesystem::path aside = file_;
+    aside += ".damaged";
+    std::error_code ignored;
+    std::filesystem::rename(file_, aside, ignored);
+}
+
+bool UsageBook::read(std::string_view text) {
+    std::istringstream lines{std::string(text)};
+    std::string line, name;
+    if (!std::getline(lines, line) || line != kFirstLine) return false;
+    bool has_total = false, ended = false;
+    while (std::getline(lines, line)) {
+        std::istringstream words(line);
+        if (ended || !(words >> name)) return false;
+        if (name == "end") {
+            ended = true;
+        } else if (name == kTotal) {
+            has_total = read_line(words, total_);
+            if (!has_total) return false;
+        } else if (!read_line(words, days_[name])) {
+            return false;
+        }
+    }
+    return has_total && ended;
+}
+
+void UsageBook::add(double Usage::*count, double much, std::time_t now) {
+    if (!(much > 0.0)) return;
+    total_.*count += much;
+    days_[date_of(now)].*count += much;
+    while (days_.size() > kMostDays) days_.erase(days_.begin());
+    dirty_ = true;
+}
+
+bool UsageBook::go_on(Instant now) {
+    if (!dirty_ || now < due_) return true;
+    due_ = now + kEvery;
+    return write();
+}
+
+bool UsageBook::write() {
+    if (!dirty_) return true;
+    std::string text = fmt::format("{}\n{}", kFirstLine, line_of(kTotal, total_));
+    for (const auto& [day, usage] : days_) text += line_of(day, usage);
+    dirty_ = !keep(file_, text + "end\n");
+    return !dirty_;
+}
+
+Usage UsageBook::on(std::time_t day) const {
+    const auto found = days_.find(date_of(day));
+    return found == days_.end() ? Usage{} : found->second;
+}
+
+}  // namespace eddy

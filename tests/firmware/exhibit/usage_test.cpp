@@ -1,0 +1,135 @@
+#include "firmware/exhibit/usage.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/firmware/exhibit/time_zone.h"
+#include "tests/scratch_folder.h"
+
+namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+
+class UsageTest : public testing::Test {
+  protected:
+    const TimeZone zone_{kBerlin};
+    const ScratchFolder folder_;
+    const std::time_t noon_ = utc("2026-11-24 11:00:00Z"), tomorrow_ = noon_ + 86400;
+};
+
+TEST_F(UsageTest, CountsByTheDayAndForGood) {
+    {
+        UsageBook book(folder_.path());
+        book.add(&Usage::visits, 2, noon_);
+        book.add(&Usage::force_s, 12.5, noon_);
+        book.add(&Usage::visits, 1, tomorrow_);
+    }
+    UsageBook book(folder_.path());
+    book.add(&Usage::visits, 1, tomorrow_);
+    EXPECT_EQ(book.total().visits, 4.0);
+    EXPECT_EQ(book.total().force_s, 12.5);
+    EXPECT_EQ(book.on(noon_).visits, 2.0);
+    EXPECT_EQ(book.on(tomorrow_).visits, 2.0);
+    EXPECT_EQ(book.on(tomorrow_ + 86400), Usage{});
+    EXPECT_FALSE(book.damaged());
+}
+
+TEST_F(UsageTest, ADayEndsAtMidnightByTheWall) {
+    UsageBook book(folder_.path());
+    book.add(&Usage::visits, 1, utc("2026-11-24 22:59:59Z"));
+    book.add(&Usage::visits, 1, utc("2026-11-24 23:00:00Z"));
+    EXPECT_EQ(book.days().count("2026-11-24"), 1U);
+    EXPECT_EQ(book.days().count("2026-11-25"), 1U);
+}
+
+TEST_F(UsageTest, IsWrittenOnceAMinuteAtMost) {
+    UsageBook book(folder_.path());
+    int written = 0;
+    std::string before;
+    for (Instant t = 0s; t < 600s; t += 1s) {
+        book.add(&Usage::force_s, 1, noon_);
+        EXPECT_TRUE(book.go_on(t));
+        const std::string now = read_all(folder_ / "usage");
+        written += now != before;
+        before = now;
+    }
+    EXPECT_EQ(written, 10);
+}
+
+TEST_F(UsageTest, NothingNewIsNotWritten) {
+    UsageBook book(folder_.path());
+    book.go_on(100s);
+    book.write();
+    EXPECT_TRUE(folder_.listing().empty());
+}
+
+TEST_F(UsageTest, APowerCutWhileItWritesLeavesWhatWasThere) {
+    std::string newer;
+    {
+        UsageBook book(folder_.path());
+        book.add(&Usage::visits, 7, noon_);
+    }
+    const std::string older = read_all(folder_ / "usage");
+    {
+        UsageBook book(folder_.path());
+        book.add(&Usage::visits, 1, noon_);
+    }
+    newer = read_all(folder_ / "usage");
+    // What replace_text_file has done when the power goes: a part of the new text beside the old.
+    for (std::size_t cut = 0; cut <= newer.size(); ++cut) {
+        folder_.write("usage", older);
+        folder_.write("usage.new", newer.substr(0, cut));
+        UsageBook book(folder_.path());
+        ASSERT_EQ(book.total().visits, 7.0) << cut;
+        ASSERT_FALSE(book.damaged());
+    }
+}
+
+TEST_F(UsageTest, AFileCutAnywhereIsNoticedAndPutAside) {
+    {
+        UsageBook book(folder_.path());
+        book.add(&Usage::visits, 7, noon_);
+        book.add(&Usage::starts, 123456789, noon_);
+    }
+    const std::string whole = read_all(folder_ / "usage");
+    // All but the last line end is missed.
+    for (std::size_t cut = 0; cut + 1 < whole.size(); ++cut) {
+        folder_.write("usage", whole.substr(0, cut));
+        UsageBook book(folder_.path());
+        ASSERT_TRUE(book.damaged()) << cut;
+        ASSERT_EQ(book.total(), Usage{});
+        ASSERT_EQ(read_all(folder_ / "usage.damaged"), whole.substr(0, cut));
+    }
+}
+
+TEST_F(UsageTest, NonsenseIsNotCounted) {
+    for (const char* text :
+         {"", "x", "eddy usage 1\ntotal visits -1\nend\n", "eddy usage 1\ntotal visits nan\nend\n",
+          "eddy usage 1\nend\n", "eddy usage 1\ntotal visits\nend\n"}) {
+        folder_.write("usage", text);
+        EXPECT_TRUE(UsageBook(folder_.path()).damaged()) << text;
+    }
+    folder_.write("usage", "eddy usage 1\ntotal visits 3 of_a_newer_program 7\nend\n");
+    EXPECT_EQ(UsageBook(folder_.path()).total().visits, 3.0);
+}
+
+TEST_F(UsageTest, KeepsASeasonOfDaysAndAllOfTheTotal) {
+    UsageBook book(folder_.path());
+    for (int day = 0; day < 400; ++day) book.add(&Usage::visits, 1, noon_ + day * 86400);
+    EXPECT_EQ(book.total().visits, 400.0);
+    EXPECT_EQ(book.days().size(), UsageBook::kMostDays);
+    EXPECT_EQ(book.on(noon_ + 399 * 86400).visits, 1.0);
+    book.write();
+    EXPECT_LT(std::filesystem::file_size(folder_ / "usage"), 16000U);
+}
+
+TEST_F(UsageTest, AFullDiskIsSaidAndTriedAgain) {
+    UsageBook book("/nonexistent");
+    book.add(&Usage::visits, 1, noon_);
+    EXPECT_FALSE(book.go_on(0s));
+    EXPECT_TRUE(book.go_on(1s)) << "not due yet";
+    EXPECT_FALSE(book.go_on(61s));
+}
+
+}  // namespace
+}  // namespace eddy
