@@ -33,7 +33,8 @@ struct CommandLine {
     CLI::App* calibrate = nullptr;
     std::string check_file, check_folder, print_scene, print_folder = kConfigFolder;
     std::vector<std::string> print_set;
-    bool print_origin = false, print_keys = false, print_exhibit_keys = false, print_exhibit_schema = false;
+    bool print_origin = false, print_keys = false, print_exhibit_keys = false, print_exhibit_schema = false,
+         print_log = false;
 
     CommandLine() {
         app.set_version_flag("--version", fmt::format("eddy {} ({})", EDDY_VERSION, kBuiltFrom));
@@ -66,6 +67,8 @@ struct CommandLine {
                           "a scene (shipped name or file); without: the exhibit's settings");
         add_set(*print, print_set);
         print->add_flag("--origin", print_origin, "say for each value where it was written");
+        print->add_flag("--log", print_log,
+                        "print what the log may say, its ids and what to do (docs/log.md)");
         print->add_flag("--keys", print_keys,
                         "list every key a scene may have, with range, default and meaning");
         print->add_flag("--exhibit-keys", print_exhibit_keys,
@@ -370,6 +373,7 @@ struct CommandLine {
         if (app.got_subcommand("check-config")) return act_on_check();
         if (print_exhibit_keys) return eddy::print_exhibit_keys();
         if (print_exhibit_schema) return eddy::print_exhibit_schema();
+        if (print_log) return print_log_reference();
         return print_keys ? print_schema() : print_config(print_folder, print_scene, print_set, print_origin);
     }
 };

@@ -5,6 +5,7 @@
 #include "config/scene.h"
 #include "firmware/body_schedule.h"
 #include "firmware/exhibit/config_set.h"
+#include "firmware/exhibit/events.h"
 #include "firmware/fluid_setup.h"
 #include "firmware/verbs/verbs.h"
 
@@ -54,6 +55,11 @@ int print_config(const std::string& folder, const std::string& scene, const std:
         const LoadedScene loaded = load_scene(scene, set);
         fmt::print("{}", print_scene(loaded.scene, origin ? &loaded.origins : nullptr));
     }
+    return 0;
+}
+
+int print_log_reference() {
+    fmt::print("{}", log_reference());
     return 0;
 }
 

@@ -159,5 +159,7 @@ int print_schema();
 int print_exhibit_keys();
 /// The same for editors (docs/exhibit.schema.json).
 int print_exhibit_schema();
+/// The kinds of lines in the log as markdown (docs/log.md).
+int print_log_reference();
 
 }  // namespace eddy
