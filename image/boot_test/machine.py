@@ -1,0 +1,220 @@
+"""A PC in QEMU that starts from the image as it is shipped, and what a tester does to it from outside."""
+import base64
+import json
+import os
+import pathlib
+import re
+import shutil
+import socket
+import subprocess
+import time
+
+from picture import Picture
+
+FIRMWARE = [pathlib.Path("/usr/share/OVMF") / name for name in ("OVMF_CODE_4M.fd", "OVMF_VARS_4M.fd")]
+
+# A shell for the tester, given to the machine by its firmware (SMBIOS), not by its disk: systemd reads units from there.
+AGENT = """[Unit]
+DefaultDependencies=no
+StartLimitIntervalSec=0
+[Service]
+ExecStart=/bin/sh -c 'for port in /dev/vport*p1; do exec /bin/sh <>$port >&0 2>&0; done'
+Restart=always
+RestartSec=1
+"""
+WANTED = "[Unit]\nWants=boot-test.service\n"
+
+
+class Failed(Exception):
+    """Something is not as it should be; the text says what."""
+
+
+def until(what, seconds, look, every=0.5):
+    """What look() returns, once that is true; fails after so many seconds."""
+    end = time.monotonic() + seconds
+    while True:
+        found = look()
+        if found:
+            return found
+        if time.monotonic() > end:
+            raise Failed(f"waited {seconds:.0f} s in vain for {what}")
+        time.sleep(every)
+
+
+class Disk:
+    """A copy of the image that grows as it is written to; the image itself is never touched."""
+
+    def __init__(self, image, path):
+        self.path = pathlib.Path(path)
+        self.image = pathlib.Path(image).resolve()
+        self.path.unlink(missing_ok=True)
+        subprocess.run(["qemu-img", "create", "-q", "-f", "qcow2", "-F", "raw", "-b", self.image, self.path], check=True)
+        table = json.loads(subprocess.run(["sfdisk", "--json", self.image], check=True, capture_output=True).stdout)
+        self.partitions = {p["name"]: (p["start"] * 512, p["size"] * 512) for p in table["partitiontable"]["partitions"]}
+
+    def read(self, name, to):
+        """A partition, as it is now, as a file. Only while the machine is off."""
+        whole = self.path.with_suffix(".raw")
+        subprocess.run(["qemu-img", "convert", "-f", "qcow2", "-O", "raw", self.path, whole], check=True)
+        start, size = self.partitions[name]
+        subprocess.run(["dd", f"if={whole}", f"of={to}", "bs=1M", f"skip={start >> 20}", f"count={size >> 20}",
+                        "conv=sparse", "status=none"], check=True)
+        whole.unlink()
+
+    def damage(self, name, length, seed):
+        """Writes noise over the beginning of a partition. Only while the machine is off."""
+        import random
+        noise = self.path.with_suffix(".noise")
+        noise.write_bytes(random.Random(seed).randbytes(length))
+        start = self.partitions[name][0]
+        subprocess.run(["qemu-io", "-f", "qcow2", "-c", f"write -s {noise} {start} {length}", self.path],
+                       check=True, stdout=subprocess.DEVNULL)
+        noise.unlink()
+
+
+class Machine:
+    def __init__(self, disk, out, name, usb=(), guest_clock=False, memory_mib=2048):
+        """usb: sockets on which devices are served. guest_clock: its clock counts instructions, whatever else this host does."""
+        self.out = pathlib.Path(out)
+        self.name = name
+        self.serial_log = self.out / f"{name}.serial.log"
+        self.agent_socket = self.out / "agent.sock"
+        self.qmp_socket = self.out / "qmp.sock"
+        for old in (self.agent_socket, self.qmp_socket, self.serial_log):
+            old.unlink(missing_ok=True)
+        settings = self.out / "vars.fd"
+        if not settings.exists():
+            shutil.copy(FIRMWARE[1], settings)
+        command = ["qemu-system-x86_64", "-M", "q35", "-cpu", "max", "-smp", "1", "-m", str(memory_mib)]
+        command += ["-accel", "tcg"] + (["-icount", "shift=1,sleep=off"] if guest_clock else [])
+        command += ["-drive", f"if=pflash,format=raw,readonly=on,file={FIRMWARE[0]}",
+                    "-drive", f"if=pflash,format=raw,file={settings}",
+                    "-drive", f"file={disk.path},if=virtio,cache=writethrough",
+                    "-device", "virtio-gpu-pci,xres=1280,yres=720", "-vga", "none", "-display", "none",
+                    "-device", "i6300esb", "-watchdog-action", "reset",
+                    "-nic", "none", "-monitor", "none", "-serial", f"file:{self.serial_log}",
+                    "-qmp", f"unix:{self.qmp_socket},server=on,wait=off",
+                    "-device", "qemu-xhci,id=usb", "-device", "virtio-serial",
+                    "-chardev", f"socket,id=agent,path={self.agent_socket},server=on,wait=off",
+                    "-device", "virtserialport,chardev=agent"]
+        for number, path in enumerate(usb):
+            command += ["-chardev", f"socket,id=usb{number},path={path},reconnect=1",
+                        "-device", f"usb-redir,chardev=usb{number},bus=usb.0"]
+        for credential, text in (("systemd.extra-unit.boot-test.service", AGENT),
+                                 ("systemd.unit-dropin.sysinit.target", WANTED)):
+            value = base64.b64encode(text.encode()).decode()
+            command += ["-smbios", f"type=11,value=io.systemd.credential.binary:{credential}={value}"]
+        self.began = time.monotonic()
+        self.log = open(self.out / f"{name}.qemu.log", "wb")
+        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log)
+        self.asked = 0
+        self.agent_stream = None
+        self.qmp_stream = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.cut()
+
+    # --- power ---
+    def cut(self):
+        """Pulls the mains plug: what the guest had not given to the disk is lost."""
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+        for stream in (self.agent_stream, self.qmp_stream):
+            if stream:
+                stream.close()
+        self.log.close()
+
+    def age_s(self):
+        return time.monotonic() - self.began
+
+    def alive(self):
+        if self.process.poll() is not None:
+            raise Failed(f"QEMU ended: see {self.name}.qemu.log")
+
+    # --- the serial cable ---
+    def said(self):
+        return self.serial_log.read_text(errors="replace") if self.serial_log.exists() else ""
+
+    def wait_for(self, pattern, seconds, after=0):
+        """Where in what was said the pattern ends; only what was said after that many letters counts."""
+        def look():
+            self.alive()
+            found = re.search(pattern, self.said()[after:])
+            return found and after + found.end()
+        return until(f"'{pattern}' on the serial line of {self.name}", seconds, look)
+
+    # --- QMP: what the monitor and the sockets of the machine show ---
+    def qmp(self, command, **arguments):
+        if not self.qmp_stream:
+            connection = self.connect(self.qmp_socket, 20)
+            self.qmp_stream = connection.makefile("rw")
+            self.qmp_stream.readline()
+            self.qmp("qmp_capabilities")
+        self.qmp_stream.write(json.dumps({"execute": command, "arguments": arguments}) + "\n")
+        self.qmp_stream.flush()
+        while True:
+            answer = json.loads(self.qmp_stream.readline() or '{"error": {"desc": "QEMU ended"}}')
+            if "error" in answer:
+                raise Failed(f"QEMU, {command}: {answer['error']['desc']}")
+            if "return" in answer:
+                return answer["return"]
+
+    def screen(self, keep_as=None):
+        path = self.out / "screen.ppm"
+        self.qmp("screendump", filename=str(path))
+        if keep_as:
+            self.qmp("screendump", filename=str(self.out / f"{keep_as}.png"), format="png")
+        return Picture.read(path)
+
+    def plug_stick(self, image):
+        self.qmp("blockdev-add", **{"driver": "raw", "node-name": "stick", "file": {"driver": "file", "filename": str(image)}})
+        self.qmp("device_add", driver="usb-storage", id="stick", bus="usb.0", drive="stick")
+
+    def pull_stick(self):
+        self.qmp("device_del", id="stick")
+        def gone():
+            try:
+                self.qmp("blockdev-del", **{"node-name": "stick"})
+                return True
+            except Failed:
+                return False
+        until("the stick to come out", 20, gone)
+
+    # --- the tester's shell ---
+    def connect(self, path, seconds):
+        def look():
+            self.alive()
+            connection = socket.socket(socket.AF_UNIX)
+            try:
+                connection.connect(str(path))
+                return connection
+            except OSError:
+                connection.close()
+                return None
+        return until(path.name, seconds, look, 0.2)
+
+    def ask(self, script, seconds=60):
+        """What a shell on the machine, as root, prints for this; fails if its status is not 0."""
+        if not self.agent_stream:
+            self.agent_stream = self.connect(self.agent_socket, 20)
+        self.asked += 1
+        end = f"@@{self.asked}@@"
+        self.agent_stream.settimeout(1.0)
+        self.agent_stream.sendall(f"( {script}\n) 2>&1 </dev/null; echo \"{end}$?.\"\n".encode())
+        heard, deadline = b"", time.monotonic() + seconds
+        while not (found := re.search(re.escape(end).encode() + rb"(\d+)\.\n", heard)):
+            self.alive()
+            if time.monotonic() > deadline:
+                raise Failed(f"no answer within {seconds} s to: {script}\n{heard.decode(errors='replace')}")
+            try:
+                heard += self.agent_stream.recv(65536)
+            except TimeoutError:
+                pass
+        text = heard[:found.start()].decode(errors="replace").replace("\r\n", "\n")
+        if found[1] != b"0":
+            raise Failed(f"status {found[1].decode()} of: {script}\n{text}")
+        return text
