@@ -14,7 +14,7 @@ namespace eddy::gles {
 inline Gpu& shared_gpu() {
     struct Machine {
         std::unique_ptr<Display> display = make_headless_display();
-        Context context{{display->egl_platform(), display->native_display(), display->native_window()}};
+        Context context{{display->egl_platform(), display->native_display()}};
         Gpu gpu{context.capabilities()};
     };
     static Machine machine;
