@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <charconv>
 
 #include "cmake/embedded.h"
 #include "config/exhibit_keys.h"
@@ -81,6 +82,21 @@ void describe(Visitor& v, UnattendedConfig& u) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, ScreenConfig& s) {
+    v.value("connector", s.connector,
+            "plug of the screen, as eddy screen names it (HDMI-A-1, or card1-HDMI-A-1); empty: the screen of "
+            "last time, else the "
+            "first that is connected");
+    v.value("mode", s.mode,
+            "1920x1080@60, or 1920x1080 for the rate nearest to 60; empty: what the monitor prefers");
+    v.value("max_pixels", s.max_pixels,
+            "the picture is drawn no larger, and scaled up to the screen; a processor that draws in software "
+            "needs a "
+            "tenth of what a GPU can do; 0: as large as the screen",
+            between(0, 33177600));
+}
+
+template <class Visitor>
 void describe(Visitor& v, Exhibit& e) {
     v.takes_effect(TakesEffect::Scene);
     v.value("scene", e.scene,
@@ -108,6 +124,7 @@ void describe(Visitor& v, Exhibit& e) {
     v.takes_effect(TakesEffect::Process);
     v.table("falcon", e.falcon, "The Novint Falcon.");
     v.table("gpio", e.gpio, "Button, stop input and lamps.");
+    v.table("screen", e.screen, "The screen.");
     v.takes_effect(TakesEffect::Live);
     v.table("hours", e.hours,
             "Opening hours, by the clock on the wall; not before the machine's clock is synchronised.");
@@ -135,6 +152,20 @@ void check(const GpioConfig& gpio, Findings& findings) {
             "after a stop the force comes back by a click on the button: gpio.button must name one");
 }
 
+/// 1920x1080, or 1920x1080@59.94.
+bool is_mode(const std::string& text) {
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    const auto number = [&](auto value, double most) {
+        const auto [next, error] = std::from_chars(at, end, value);
+        at = next;
+        return error == std::errc() && value > 0 && value <= most;
+    };
+    const auto letter = [&](char c) { return at != end && *at++ == c; };
+    if (!number(0, 65535) || !letter('x') || !number(0, 65535)) return false;
+    return at == end || (letter('@') && number(0.0, 1000.0) && at == end);
+}
+
 void check(const Exhibit& exhibit, Findings& findings) {
     const auto names = shipped_scenes();
     if (!is_scene_file(exhibit.scene) && std::find(names.begin(), names.end(), exhibit.scene) == names.end())
@@ -159,6 +190,25 @@ void check(const Exhibit& exhibit, Findings& findings) {
             parse(text);
         } catch (const std::invalid_argument& error) {
             findings.blame(place_of(findings.origins, "hours." + day), "hours." + day, error.what());
+    if (!exhibit.falcon.firmware.empty()) require_absolute("falcon.firmware", exhibit.falcon.firmware);
+    if (const std::string& mode = exhibit.screen.mode; !mode.empty() && !is_mode(mode))
+        findings.blame(place_of(findings.origins, "screen.mode"), "screen.mode",
+                       in_quotes(mode) + " must be written like 1920x1080@60 or 1920x1080");
+}
+
+/// The files of a configuration folder, in the order in which they apply.
+struct Layers {
+    std::vector<std::filesystem::path> own;       ///< exhibit.toml, if there is one: the machine's own
+    std::vector<std::filesystem::path> drop_ins;  ///< conf.d: what a fleet's server may put there
+};
+
+Layers layers_in(const std::filesystem::path& folder) {
+    Layers layers;
+    try {
+        if (std::filesystem::is_directory(folder / "conf.d")) {
+            for (const auto& entry : std::filesystem::directory_iterator(folder / "conf.d")) {
+                if (entry.path().extension() == ".toml") layers.drop_ins.push_back(entry.path());
+            }
         }
     };
     const HoursConfig& h = exhibit.hours;

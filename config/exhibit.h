@@ -87,6 +87,14 @@ struct UnattendedConfig {
     bool operator==(const UnattendedConfig&) const = default;
 };
 
+/// The screen, and how large a picture is drawn for it.
+struct ScreenConfig {
+    std::string connector{};
+    std::string mode{};
+    int max_pixels = 921600;
+    bool operator==(const ScreenConfig&) const = default;
+};
+
 /// What an exhibit machine is set to. exhibit.cpp has each key's meaning and range, exhibit.toml its value.
 struct Exhibit {
     std::string scene = "jet";  ///< as load_scene() takes it
@@ -103,6 +111,7 @@ struct Exhibit {
     GpioConfig gpio{};
     HoursConfig hours{};
     UnattendedConfig unattended{};
+    ScreenConfig screen{};
     bool operator==(const Exhibit&) const = default;
 };
 

@@ -139,5 +139,16 @@ TEST_F(ExhibitFolder, FileThatIsCheckedMustExist) {
                 ElementsAre(HasSubstr("absent.toml: cannot be read: No such file")));
 }
 
+TEST_F(ExhibitFolder, AScreensModeIsWrittenAsWidthTimesHeightAndItsRate) {
+    write("exhibit.toml", "[screen]\nconnector = \"HDMI-A-1\"\nmode = \"1920x1080@59.94\"\nmax_pixels = 0\n");
+    EXPECT_EQ(load_exhibit(folder_).exhibit.screen, (ScreenConfig{"HDMI-A-1", "1920x1080@59.94", 0}));
+    for (const std::string wrong :
+         {"full", "1920", "1920x", "1920x1080@", "1920x1080p", "0x480", "1920x1080@60Hz"}) {
+        const std::string file = write("exhibit.toml", "[screen]\nmode = \"" + wrong + "\"\n");
+        EXPECT_THAT(complaints([&] { load_exhibit(folder_); }),
+                    ElementsAre(AllOf(StartsWith(file + ":2:8: screen.mode:"), HasSubstr("1920x1080@60"))));
+    }
+}
+
 }  // namespace
 }  // namespace eddy
