@@ -8,10 +8,10 @@
 
 namespace eddy {
 
-struct Extent {
+struct SizePx {
     int width = 0;   ///< pixels
     int height = 0;  ///< pixels
-    bool operator==(const Extent&) const = default;
+    bool operator==(const SizePx&) const = default;
 };
 
 enum class DisplayState {
@@ -48,7 +48,7 @@ class Display {
     virtual void* native_display() const = 0;
     virtual void* native_window() const = 0;  ///< null: there is no screen, draw into textures
     /// Of the window; none if there is no screen. A size without a native window is that of a window nobody sees.
-    virtual std::optional<Extent> size_px() const = 0;
+    virtual std::optional<SizePx> size_px() const = 0;
     /// Another number, another window: its drawer must make its surface anew (or do without, if there is none now) before it
     /// draws. The old window stays valid until the first present() after that.
     virtual long window_number() const = 0;

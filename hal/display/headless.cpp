@@ -47,7 +47,7 @@ class HeadlessDisplay final : public Display {
     }
     void* native_display() const override { return device_; }
     void* native_window() const override { return nullptr; }
-    std::optional<Extent> size_px() const override { return std::nullopt; }
+    std::optional<SizePx> size_px() const override { return std::nullopt; }
     long window_number() const override { return 0; }
     void refuse_window() override {}
     DisplayState poll(Instant) override { return awake_ ? DisplayState::NoMonitor : DisplayState::Asleep; }

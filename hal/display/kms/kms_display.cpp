@@ -165,10 +165,10 @@ void* KmsDisplay::native_window() const {
     return window_ ? window_->native() : nullptr;
 }
 
-std::optional<Extent> KmsDisplay::size_px() const {
+std::optional<SizePx> KmsDisplay::size_px() const {
     if (!window_) return std::nullopt;
     const drmModeModeInfo& mode = attempts_[attempt_].mode.mode;
-    return Extent{mode.hdisplay, mode.vdisplay};
+    return SizePx{mode.hdisplay, mode.vdisplay};
 }
 
 void KmsDisplay::refuse_window() {

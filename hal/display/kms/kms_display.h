@@ -34,7 +34,7 @@ class KmsDisplay final : public Display {
     unsigned egl_platform() const override;
     void* native_display() const override;
     void* native_window() const override;
-    std::optional<Extent> size_px() const override;
+    std::optional<SizePx> size_px() const override;
     long window_number() const override { return window_number_; }
     void refuse_window() override;
     DisplayState poll(Instant now) override;

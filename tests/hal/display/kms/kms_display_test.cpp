@@ -36,7 +36,7 @@ TEST_F(KmsDisplayTest, ShowsSixtyFramesASecondOnAScreenOfSixtyHertz) {
     run(1s);
     EXPECT_NEAR(static_cast<double>(rate()), 60.0, 1.0);
     EXPECT_EQ(mode_on(), "1920x1080@60");
-    EXPECT_EQ(display->size_px(), (Extent{1920, 1080}));
+    EXPECT_EQ(display->size_px(), (SizePx{1920, 1080}));
     EXPECT_NE(card().seen_on(0), 0U);
     EXPECT_EQ(display->counters().modesets, 1);
     EXPECT_EQ(display->counters().late, 0);
@@ -187,7 +187,7 @@ TEST_F(KmsDisplayTest, ThePlugAndTheModeThatAreWishedAreTaken) {
     run(1s);
     EXPECT_NE(card().seen_on(1), 0U);
     EXPECT_EQ(card().seen_on(0), 0U);
-    EXPECT_EQ(display->size_px(), (Extent{1280, 720}));
+    EXPECT_EQ(display->size_px(), (SizePx{1280, 720}));
 }
 
 TEST_F(KmsDisplayTest, APlugThatDoesNotExistIsNamedWithThoseThatDo) {
@@ -224,7 +224,7 @@ TEST_F(KmsDisplayTest, AModeThatTheCardRefusesGivesWayToTheNext) {
     open();
     run(1s);
     EXPECT_EQ(mode_on(), "1280x720@60");
-    EXPECT_EQ(display->size_px(), (Extent{1280, 720}));
+    EXPECT_EQ(display->size_px(), (SizePx{1280, 720}));
     EXPECT_GT(rate(), 50);
 }
 
@@ -464,7 +464,7 @@ TEST_F(KmsDisplayTest, AnotherMonitorOnThePlugGetsItsOwnMode) {
     machine.tell_of_plugs();
     run(1s);
     EXPECT_EQ(mode_on(), "1280x1024@60");
-    EXPECT_EQ(display->size_px(), (Extent{1280, 1024}));
+    EXPECT_EQ(display->size_px(), (SizePx{1280, 1024}));
     EXPECT_NE(display->screen_id(), id);
     EXPECT_GT(rate(), 50);
 }
