@@ -5,6 +5,7 @@
 #include "firmware/command_line.h"
 #include "firmware/stability_options.h"
 #include "firmware/verbs/verbs.h"
+#include "hal/display/kms/choice.h"
 
 // The command line. Exit status: 0 done, 1 failed, 2 wrong usage or bad input.
 
@@ -28,6 +29,7 @@ struct CommandLine {
     StabilityOptions stability;
     FalconOptions falcon;
     HapticsOptions haptics;
+    ScreenOptions screen;
     ReplayOptions replay;
     RtSelftestOptions rt_selftest;
     CLI::App* calibrate = nullptr;
@@ -54,6 +56,7 @@ struct CommandLine {
         add_tune();
         add_falcon();
         add_haptics();
+        add_screen();
         add_replay();
         add_rt_selftest();
         auto* check = app.add_subcommand(
@@ -154,6 +157,21 @@ struct CommandLine {
         calibrate->add_option("--weight-g", falcon.weight_g, "mass of the weight")
             ->check(number_from(20.0, 400.0))
             ->capture_default_str();
+    }
+
+    void add_screen() {
+        auto* verb = app.add_subcommand(
+            "screen",
+            "Graphics cards, plugs, monitors and modes; which would be used and why, or what is in the way.\n"
+            "Changes nothing that is shown");
+        verb->option_defaults()->take_last();
+        verb->add_option("--connector", screen.connector,
+                         "a plug, as HDMI-A-1 [screen.connector of the exhibit]");
+        verb->add_option("--mode", screen.mode, "a mode, as 1920x1080@60 [screen.mode]")
+            ->check([](const std::string& text) {
+                return text.empty() || kms::parse_mode(text) ? std::string()
+                                                             : "write it like 1920x1080@60 or 1920x1080";
+            });
     }
 
     void add_replay() {
@@ -367,6 +385,7 @@ struct CommandLine {
         if (app.got_subcommand("stability")) return act_on_stability();
         if (app.got_subcommand("tune")) return eddy::tune(tune);
         if (app.got_subcommand("falcon")) return act_on_falcon();
+        if (app.got_subcommand("screen")) return diagnose_screen(screen);
         if (app.got_subcommand("haptics")) return study_haptics(haptics);
         if (app.got_subcommand("replay")) return eddy::replay(replay);
         if (app.got_subcommand("rt-selftest")) return eddy::rt_selftest(rt_selftest);

@@ -133,6 +133,13 @@ int diagnose_falcon(const FalconOptions& options);
 /// 1 too if it did not succeed.
 int calibrate_falcon(const FalconOptions& options);
 
+struct ScreenOptions {
+    std::optional<std::string> connector;  ///< in place of the exhibit's
+    std::optional<std::string> mode;
+};
+/// 1 too if no screen can be driven now.
+int diagnose_screen(const ScreenOptions& options);
+
 struct ReplayOptions {
     std::string flight;  ///< file
     std::string plot;    ///< PNG file; empty: none

@@ -25,6 +25,7 @@ const std::vector<Verb> kVerbs{
     {"tune", {"SCENE", "--scene", "--set", "--state-dir", "--show"}},
     {"falcon", {"--firmware", "--serial", "--seconds", "calibrate"}},
     {"haptics", {"--scene", "--grid", "--quick", "--out"}},
+    {"screen", {"--connector", "--mode"}},
     {"replay", {"FLIGHT", "--plot", ".flight"}},
     {"rt-selftest", {"--seconds", "--haptics", "--plot", "1.5 ms"}},
     {"check-config", {"FILE"}},
