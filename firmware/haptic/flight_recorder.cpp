@@ -1,6 +1,43 @@
 #include "firmware/haptic/flight_recorder.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
 namespace eddy {
+namespace {
+
+/// Before the settings and the segments; all as this build lays them out.
+struct RawHead {
+    char magic[16] = "eddy raw flight";
+    std::uint64_t tick_bytes = sizeof(FlightTick), state_bytes = sizeof(HandState),
+                  settings_bytes = sizeof(HapticLoopSettings);
+    std::uint64_t segments = 0;
+};
+static_assert(std::is_trivially_copyable_v<FlightTick> && std::is_trivially_copyable_v<HapticLoopSettings>);
+
+bool write_all(int fd, const void* bytes, std::size_t size) {
+    const char* at = static_cast<const char*>(bytes);
+    while (size > 0) {
+        const ssize_t written = ::write(fd, at, size);
+        if (written <= 0) return false;
+        at += written;
+        size -= static_cast<std::size_t>(written);
+    }
+    return true;
+}
+
+/// Takes `size` bytes off the front into `to`.
+bool take_off(std::string_view& bytes, void* to, std::size_t size) {
+    if (bytes.size() < size) return false;
+    std::memcpy(to, bytes.data(), size);
+    bytes.remove_prefix(size);
+    return true;
+}
+
+}  // namespace
 
 FlightRecorder::FlightRecorder(const HapticLoopSettings& settings) : settings_(settings) {}
 
@@ -63,6 +100,48 @@ std::optional<Flight> FlightRecorder::take_unfinished() {
     if (!after_) return std::nullopt;
     after_ = false;
     return copy(stores_[writing_]);
+}
+
+void FlightRecorder::write_raw(int fd) const noexcept {
+    const Store& store = stores_[std::min<std::size_t>(writing_, 1)];
+    RawHead head;
+    head.segments = store.segments.size();
+    if (!write_all(fd, &head, sizeof(head)) || !write_all(fd, &settings_, sizeof(settings_))) return;
+    for (std::size_t i = 1; i <= store.segments.size(); ++i) {
+        const Segment& segment = store.segments[(store.newest + i) % store.segments.size()];
+        const std::uint64_t count = std::min(segment.count, kSegmentTicks);
+        if (!write_all(fd, &count, sizeof(count)) || !write_all(fd, &segment.start, sizeof(segment.start)) ||
+            !write_all(fd, segment.ticks.data(), count * sizeof(FlightTick)))
+            return;
+    }
+}
+
+std::optional<Flight> FlightRecorder::read_raw(std::string_view bytes) {
+    const RawHead mine;
+    RawHead head;
+    Flight flight;
+    if (!take_off(bytes, &head, sizeof(head)) ||
+        std::memcmp(head.magic, mine.magic, sizeof(mine.magic)) != 0 || head.tick_bytes != mine.tick_bytes ||
+        head.state_bytes != mine.state_bytes || head.settings_bytes != mine.settings_bytes ||
+        !take_off(bytes, &flight.settings, sizeof(flight.settings)))
+        return std::nullopt;
+    for (std::uint64_t i = 0; i < head.segments; ++i) {
+        std::uint64_t count = 0;
+        HandState start{};
+        if (!take_off(bytes, &count, sizeof(count)) || !take_off(bytes, &start, sizeof(start)) ||
+            count > kSegmentTicks)
+            return std::nullopt;
+        if (count > 0 && flight.ticks.empty()) flight.start = start;
+        for (std::uint64_t n = 0; n < count; ++n) {
+            FlightTick tick;
+            if (!take_off(bytes, &tick, sizeof(tick))) return std::nullopt;
+            flight.ticks.push_back(tick);
+        }
+    }
+    if (flight.ticks.empty() || !bytes.empty()) return std::nullopt;
+    flight.cause = flight.ticks.back().out.reason;
+    flight.at = flight.ticks.back().in.now;
+    return flight;
 }
 
 Flight FlightRecorder::copy(const Store& store) const {

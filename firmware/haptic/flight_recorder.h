@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "firmware/haptic/flight.h"
@@ -32,6 +33,12 @@ class FlightRecorder {
     std::optional<Flight> take();
     /// Once the loop has ended: that of a fault so late that the loop did not see the end of it.
     std::optional<Flight> take_unfinished();
+    /// Writes what is in memory of the run so far, as it lies there: for a signal handler, when the program ends badly. The loop may go
+    /// on meanwhile; a tick that it is writing may be torn.
+    void write_raw(int fd) const noexcept;
+    /// What write_raw() wrote, as a flight that ends with the last tick; nothing if it is not whole, or another build wrote it. Its cause is
+    /// what the gate said last.
+    static std::optional<Flight> read_raw(std::string_view bytes);
     /// Faults that were not kept as the store before was still being read.
     std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
