@@ -104,7 +104,6 @@ void describe(Visitor& v, Exhibit& e) {
     v.takes_effect(TakesEffect::Process);
     v.value("display", e.display, "where the picture goes");
     v.value("haptics", e.haptics, "which hand moves the held body");
-    v.takes_effect(TakesEffect::Scene);
     v.value("force", e.force, "how the hand gets the force between two answers of the fluid");
     v.takes_effect(TakesEffect::Live);
     v.value("overlay", e.overlay, "what is written over the picture");
@@ -190,25 +189,6 @@ void check(const Exhibit& exhibit, Findings& findings) {
             parse(text);
         } catch (const std::invalid_argument& error) {
             findings.blame(place_of(findings.origins, "hours." + day), "hours." + day, error.what());
-    if (!exhibit.falcon.firmware.empty()) require_absolute("falcon.firmware", exhibit.falcon.firmware);
-    if (const std::string& mode = exhibit.screen.mode; !mode.empty() && !is_mode(mode))
-        findings.blame(place_of(findings.origins, "screen.mode"), "screen.mode",
-                       in_quotes(mode) + " must be written like 1920x1080@60 or 1920x1080");
-}
-
-/// The files of a configuration folder, in the order in which they apply.
-struct Layers {
-    std::vector<std::filesystem::path> own;       ///< exhibit.toml, if there is one: the machine's own
-    std::vector<std::filesystem::path> drop_ins;  ///< conf.d: what a fleet's server may put there
-};
-
-Layers layers_in(const std::filesystem::path& folder) {
-    Layers layers;
-    try {
-        if (std::filesystem::is_directory(folder / "conf.d")) {
-            for (const auto& entry : std::filesystem::directory_iterator(folder / "conf.d")) {
-                if (entry.path().extension() == ".toml") layers.drop_ins.push_back(entry.path());
-            }
         }
     };
     const HoursConfig& h = exhibit.hours;
@@ -219,6 +199,9 @@ Layers layers_in(const std::filesystem::path& folder) {
     for (const auto& [day, text] : days) require_hours(day, *text, parse_day);
     require_hours("exceptions", h.exceptions, parse_exceptions);
     if (!exhibit.falcon.firmware.empty()) require_absolute("falcon.firmware", exhibit.falcon.firmware);
+    if (const std::string& mode = exhibit.screen.mode; !mode.empty() && !is_mode(mode))
+        findings.blame(place_of(findings.origins, "screen.mode"), "screen.mode",
+                       in_quotes(mode) + " must be written like 1920x1080@60 or 1920x1080");
     check(exhibit.gpio, findings);
 }
 

@@ -9,6 +9,7 @@
 #include "firmware/force_plot.h"
 #include "firmware/png_file.h"
 #include "firmware/text_file.h"
+#include "gles/render/window.h"
 
 namespace eddy {
 
@@ -41,8 +42,9 @@ void Recorder::add(std::span<const TickRecord> ticks) {
     }
 }
 
-void Recorder::add(const gles::Renderer& renderer, int width_px, int height_px) {
-    write_png(folder_ / fmt::format("frame_{:04}.png", frames_++), width_px, height_px, renderer.rgb());
+void Recorder::add(gles::Gpu& gpu, const gles::Texture& picture) {
+    write_png(folder_ / fmt::format("frame_{:04}.png", frames_++), picture.size().x, picture.size().y,
+              gles::rgb_from_top(gpu, picture));
 }
 
 void Recorder::finish() {

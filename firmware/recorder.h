@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "firmware/haptic/trace.h"
-#include "gles/render/renderer.h"
+#include "gles/gpu.h"
 
 namespace eddy {
 
@@ -16,7 +16,8 @@ class Recorder {
     explicit Recorder(std::filesystem::path folder);
 
     void add(std::span<const TickRecord> ticks);
-    void add(const gles::Renderer& renderer, int width_px, int height_px);
+    /// RGBA8, first row at the bottom.
+    void add(gles::Gpu& gpu, const gles::Texture& picture);
     /// Completes force.csv and plots it.
     void finish();
 

@@ -21,6 +21,8 @@ bool moves_by_itself(const Scene& scene) {
 
 void RestWatch::see(Instant now, const std::optional<glm::dvec3>& hand_m, std::uint8_t buttons) {
     now_ = now;
+    if (!began_) hand_moved_ = now;
+    began_ = true;
     if (!still_) fluid_moved_ = now;
     const bool came_or_went = hand_m.has_value() != at_.has_value();
     const bool pressed = buttons != buttons_;

@@ -42,6 +42,7 @@ class RestWatch {
     bool still_ = false;
     std::optional<glm::dvec3> at_;
     std::uint8_t buttons_ = 0;
+    bool began_ = false;
     Instant now_{0}, hand_moved_{0}, touched_{0}, fluid_moved_{0};
 };
 

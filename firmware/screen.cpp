@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/text_file.h"
+#include "gles/render/window.h"
 
 namespace eddy {
 namespace {
@@ -60,10 +61,10 @@ std::optional<SizePx> Screen::size_px() const {
     return graphics_.context.has_window() ? graphics_.display->size_px() : std::nullopt;
 }
 
-bool Screen::show(const gles::Renderer& renderer) {
+bool Screen::show(const gles::Texture& picture) {
     const std::optional<SizePx> size = size_px();
     if (graphics_lost_ || !size) return false;
-    renderer.show(size->width, size->height);
+    gles::show_in_window(graphics_.gpu, picture, {size->width, size->height});
     if (!graphics_.context.swap()) {
         // What the GPU drew is lost with it; a window that is none any more is given back for another.
         if (graphics_.context.reset_status() != gles::ResetStatus::None)

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "firmware/graphics.h"
-#include "gles/render/renderer.h"
+#include "gles/texture.h"
 
 namespace eddy {
 
@@ -30,8 +30,8 @@ class Screen {
     bool wants_picture() const;
     /// Of the window; none: there is none now.
     std::optional<SizePx> size_px() const;
-    /// Shows what the renderer drew last, as large as fits. False: it could not be shown, now.
-    bool show(const gles::Renderer& renderer);
+    /// Shows a picture (RGBA8, first row at the bottom) as large as fits. False: it could not be shown, now.
+    bool show(const gles::Texture& picture);
     /// Opening hours.
     void set_awake(bool awake) { graphics_.display->set_awake(awake); }
     /// A line for the log when there is something new to say of the screen.

@@ -47,6 +47,14 @@ std::string caption(const CaptionInput& in) {
     return in.about_to_idle ? "Still there? Move the handle, or the fluid starts again." : "";
 }
 
+std::string caption_of(const HandSide& hand, bool about_to_idle) {
+    return caption({.has_device = hand.has_device(),
+                    .device = hand.report().device,
+                    .force = hand.report().reason,
+                    .seen_before = hand.was_ready(),
+                    .about_to_idle = about_to_idle});
+}
+
 gles::Page caption_page(const std::string& sentence, const glm::ivec2& picture_px) {
     gles::Page page;
     if (sentence.empty()) return page;

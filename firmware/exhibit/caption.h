@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "firmware/haptic/exchange.h"
+#include "firmware/exhibit/hand_side.h"
 #include "gles/render/page.h"
 
 namespace eddy {
@@ -17,6 +17,9 @@ struct CaptionInput {
 
 /// What somebody in front of the exhibit should know or do now, in one sentence; empty while all is well.
 std::string caption(const CaptionInput& in);
+
+/// Of this hand's side, as it was followed last.
+std::string caption_of(const HandSide& hand, bool about_to_idle = false);
 
 /// A sentence at the lower edge of a picture of this size, on a panel; on two lines if need be. Empty for an empty one.
 gles::Page caption_page(const std::string& sentence, const glm::ivec2& picture_px);

@@ -138,6 +138,11 @@ ConfigOffer ConfigIntake::offer(ConfigSet set, ConfigSource source) {
     return offer;
 }
 
+void ConfigIntake::building(const std::string& hash) {
+    if (!open_ || open_->hash != hash || memory_.on_probation() == hash) return;
+    if (open_source_ == ConfigSource::New && hash != memory_.last_good_hash()) memory_.begin_probation(hash);
+}
+
 void ConfigIntake::accepted(const std::string& hash, Instant now) {
     if (!open_ || open_->hash != hash) return;
     report_.pending_restart.clear();

@@ -63,6 +63,8 @@ class ConfigIntake {
     /// A new configuration, if there is one; the next only after accepted() or refused().
     std::optional<ConfigOffer> poll(Instant now);
 
+    /// What was offered is being built from now on: should the program die of that, it is on the black list too.
+    void building(const std::string& hash);
     void accepted(const std::string& hash, Instant now);
     /// `reason` is one line for the operator; the show goes on as it is.
     void refused(const std::string& hash, const std::string& reason);

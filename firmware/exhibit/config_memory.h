@@ -33,6 +33,8 @@ class ConfigMemory {
 
     void begin_probation(const std::string& hash);
     void end_probation();
+    /// The hash of the one on probation; empty: none is.
+    const std::string& on_probation() const { return on_probation_; }
 
     bool black_listed(const std::string& hash) const;
 

@@ -14,11 +14,11 @@ constexpr std::size_t kAtOnce = 4096;
 }  // namespace
 
 HandSide::HandSide(std::unique_ptr<HapticDevice> device, std::string name, const HapticLoopSettings& settings,
-                   const std::filesystem::path& flights)
+                   const std::filesystem::path& flights, const std::atomic<bool>* stop_input)
     : device_(std::move(device)), name_(std::move(name)), trace_(kTraced), ticks_(kAtOnce) {
     if (!device_) return;
     flights_ = std::make_unique<FlightRecorder>(settings);
-    loop_.emplace(*device_, exchange_, trace_, settings, flights_.get());
+    loop_.emplace(*device_, exchange_, trace_, settings, flights_.get(), stop_input);
     if (!flights.empty()) flight_keeper_.emplace(*flights_, flights);
 }
 
@@ -58,6 +58,7 @@ void HandSide::follow(const std::function<void(std::span<const TickRecord>)>& ea
         if (each) each(part);
     }
     report_ = exchange_.report.newest();
+    was_ready_ = was_ready_ || report_.device == HapticState::Ready;
 }
 
 void HandSide::finish_flights() {

@@ -22,8 +22,9 @@ class HandSide {
   public:
     /// `device` may be null: then nobody ever holds anything. `flights`: folder for the seconds before a fault; empty: they are
     /// not kept.
+    /// `stop_input`, if any: looked at in every tick, see HapticLoop. It must outlive this.
     HandSide(std::unique_ptr<HapticDevice> device, std::string name, const HapticLoopSettings& settings,
-             const std::filesystem::path& flights);
+             const std::filesystem::path& flights, const std::atomic<bool>* stop_input = nullptr);
     /// The last thing that is sent is zero.
     ~HandSide() { end(); }
     HandSide(const HandSide&) = delete;
@@ -46,7 +47,11 @@ class HandSide {
     void follow(const std::function<void(std::span<const TickRecord>)>& each = {});
     const LoopReport& report() const { return report_; }
     double sent_most_n() const { return sent_most_n_; }
+    /// The device was ready since the start.
+    bool was_ready() const { return was_ready_; }
 
+    /// What the loop keeps of its last seconds; null: there is no loop.
+    const FlightRecorder* flights() const { return flights_.get(); }
     /// Completes what is kept of faults; the loop must have ended.
     void finish_flights();
     /// What was kept since the last call, for the log.
@@ -72,6 +77,7 @@ class HandSide {
     std::thread thread_;
     LoopReport report_;
     double sent_most_n_ = 0.0;
+    bool was_ready_ = false;
 };
 
 }  // namespace eddy

@@ -172,7 +172,7 @@ void each(F&& f, S& t) requires std::is_same_v<std::remove_const_t<S>, FlightTic
 }
 
 // Whoever adds a member writes it above, or it would be lost.
-static_assert(sizeof(HapticOrders) == 120 && sizeof(FluidSnapshot) == 136);
+static_assert(sizeof(HapticOrders) == 128 && sizeof(FluidSnapshot) == 136);
 
 template <class T>
 std::string line_of(std::string_view head, const T& what) {

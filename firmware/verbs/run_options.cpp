@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "firmware/body_schedule.h"
+#include "firmware/destination.h"
 #include "firmware/quality/tuning.h"
 #include "firmware/text_file.h"
 
@@ -11,26 +12,48 @@ namespace {
 
 constexpr Seconds kShortestStep{0.001};
 
-const std::vector<SolverPreset>& presets_of(const RunOptions& options, const Exhibit& exhibit) {
-    return options.presets.empty() ? exhibit.presets : options.presets;
-}
-
 }  // namespace
 
-const std::string& scene_name(const RunOptions& options, const Exhibit& exhibit) {
-    return options.scene.empty() ? exhibit.scene : options.scene;
+Exhibit with_options(Exhibit exhibit, const RunOptions& options) {
+    if (!options.scene.empty()) exhibit.scene = options.scene;
+    if (options.display) exhibit.display = *options.display;
+    if (options.haptics) exhibit.haptics = *options.haptics;
+    if (options.overlay) exhibit.overlay = *options.overlay;
+    if (!options.presets.empty()) exhibit.presets = options.presets;
+    if (options.preset_s) exhibit.preset_s = *options.preset_s;
+    if (!options.run_dir.empty()) exhibit.run_dir = options.run_dir;
+    if (!options.state_dir.empty()) exhibit.state_dir = options.state_dir;
+    return exhibit;
 }
 
-QualityControl::Setup quality_setup(const RunOptions& options, const Exhibit& exhibit, const Scene& scene) {
-    QualityControl::Setup setup{
-        presets_of(options, exhibit), Seconds(options.preset_s.value_or(exhibit.preset_s)), {}};
-    const std::filesystem::path folder =
-        options.state_dir.empty() ? exhibit.state_dir : std::filesystem::path(options.state_dir);
+Act::Setup act_setup(const RunOptions& options, const Exhibit& exhibit, const Scene& scene, bool has_picture,
+                     bool has_hand) {
+    Act::Setup setup{.quality = {exhibit.presets, Seconds(exhibit.preset_s), {}},
+                     .has_picture = has_picture,
+                     .has_hand = has_hand,
+                     .shows_cost = exhibit.overlay == OverlayChoice::Cost};
     // A flow that was written for one grid starts on that.
     const bool may_tune =
         options.clock == ClockChoice::Real && scene.initial.velocity_npy.empty() && !scene.imposed;
-    if (may_tune && is_folder(folder)) setup.tuning = tuning_file(folder, scene_name(options, exhibit));
+    if (may_tune && is_folder(exhibit.state_dir))
+        setup.quality.tuning = tuning_file(exhibit.state_dir, exhibit.scene);
     return setup;
+}
+
+HapticLoopSettings loop_settings(const Exhibit& exhibit) {
+    HapticLoopSettings settings;
+    settings.law = exhibit.force == ForceChoice::Filter ? ForceLaw::Filter : ForceLaw::Model;
+    return settings;
+}
+
+std::filesystem::path flights_folder(const Exhibit& exhibit) {
+    return is_folder(exhibit.state_dir) ? exhibit.state_dir / "flights" : std::filesystem::path();
+}
+
+void prepare_folders(const RunOptions& options) {
+    if (!options.record.empty()) prepare_folder("--record", options.record);
+    if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);
+    if (!options.state_dir.empty()) prepare_folder("--state-dir", options.state_dir);
 }
 
 void require_possible(const RunOptions& options, const Exhibit& exhibit, const Scene& scene) {
@@ -41,20 +64,18 @@ void require_possible(const RunOptions& options, const Exhibit& exhibit, const S
             "solver.dt_s = {}: run keeps time in ticks of 1 ms; use at least 0.001 (simulate takes "
             "any)",
             scene.solver.dt_s));
-    if (presets_of(options, exhibit).size() == 1)
+    if (exhibit.presets.size() == 1)
         throw InputError("presets: one alone leaves nothing to choose; name more, or set solver.preset");
-    if (options.preset_s.value_or(0.0) > 0.0 && presets_of(options, exhibit).empty())
+    if (options.preset_s.value_or(0.0) > 0.0 && exhibit.presets.empty())
         throw InputError(
             fmt::format("--preset-s {}: there are no presets that could change; name them with --presets",
                         *options.preset_s));
     // Each preset must be able to do what the scene asks for.
-    for (const SolverPreset preset : presets_of(options, exhibit)) {
+    for (const SolverPreset preset : exhibit.presets) {
         std::vector<std::string> set = options.set;
         set.push_back(fmt::format("solver.preset=\"{}\"", to_word(preset)));
-        load_scene(scene_name(options, exhibit), set);
+        load_scene(exhibit.scene, set);
     }
-    if (options.display.value_or(exhibit.display) == DisplayChoice::Kms)
-        throw InputError("--display kms: this version cannot drive a screen yet; use headless, or auto");
     BodySchedule{scene};  // reads the paths
 }
 

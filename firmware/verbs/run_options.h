@@ -1,5 +1,7 @@
 #pragma once
 #include "config/scene.h"
+#include "firmware/exhibit/act.h"
+#include "firmware/haptic/hand_tick.h"
 #include "firmware/quality/quality_control.h"
 #include "firmware/verbs/verbs.h"
 
@@ -7,12 +9,19 @@ namespace eddy {
 
 // What the options of a run come to, with the exhibit's settings where they say nothing.
 
-const std::string& scene_name(const RunOptions& options, const Exhibit& exhibit);
+/// The exhibit's settings, but for what the command line says otherwise.
+Exhibit with_options(Exhibit exhibit, const RunOptions& options);
 
-/// What the quality of the fluid hangs on. A run on the stepped clock is the same on every machine: it keeps the scene's own.
-QualityControl::Setup quality_setup(const RunOptions& options, const Exhibit& exhibit, const Scene& scene);
+/// How the act of a scene is to be played. A run on the stepped clock is the same on every machine: it keeps the scene's own quality.
+Act::Setup act_setup(const RunOptions& options, const Exhibit& exhibit, const Scene& scene, bool has_picture,
+                     bool has_hand);
+HapticLoopSettings loop_settings(const Exhibit& exhibit);
+/// Where the seconds before a fault go. Where the exhibit keeps nothing else, it keeps no flights either: empty.
+std::filesystem::path flights_folder(const Exhibit& exhibit);
 
 /// Throws InputError, with the option's name, for what no run of this scene can do.
 void require_possible(const RunOptions& options, const Exhibit& exhibit, const Scene& scene);
+/// Makes the folders that options name; throws InputError for those that cannot be.
+void prepare_folders(const RunOptions& options);
 
 }  // namespace eddy

@@ -55,7 +55,7 @@ class ScreenTest : public testing::Test {
         const DisplayState state = screen->poll(machine.now());
         if (screen->wants_picture()) {
             renderer->draw(*fluid, {gles::ball_at({12, 10, 11})});
-            screen->show(*renderer);
+            screen->show(renderer->picture());
         }
         return state;
     }
@@ -120,7 +120,7 @@ TEST_F(ScreenTest, WithoutAMonitorTheShowGoesOnAndComesBackWithIt) {
     open();
     EXPECT_EQ(run(1s), DisplayState::NoMonitor);
     EXPECT_FALSE(screen->wants_picture());
-    EXPECT_FALSE(screen->show(*renderer)) << "and no harm is done";
+    EXPECT_FALSE(screen->show(renderer->picture())) << "and no harm is done";
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     plug().connection = Connection::Connected;
     machine.tell_of_plugs();

@@ -1,0 +1,28 @@
+#pragma once
+#include "firmware/exhibit/lamps.h"
+#include "firmware/exhibit/visitors.h"
+#include "firmware/exhibit/vital_signs.h"
+#include "firmware/haptic/exchange.h"
+
+namespace eddy {
+
+/// What there is to know of the exhibit at a glance.
+struct ExhibitFacts {
+    bool first_frame = false;  ///< there was one
+    bool open = true;          ///< by its opening hours
+    bool safe = false;         ///< safe mode
+    bool has_device = false;   ///< somebody is to hold something
+    HapticState device = HapticState::Absent;
+    GateReason force = GateReason::Open;
+    Presence presence = Presence::Nobody;
+    bool has_screen = true;     ///< it has one, or is not to have one
+    bool button_stuck = false;  ///< or a line of the panel is away
+    bool fell_back = false;     ///< it runs with older settings than those in its folder
+};
+
+/// Pure: the state for status.json, metrics and people far away.
+ExhibitState exhibit_state(const ExhibitFacts& facts);
+/// Pure: the code for the lamps, between news that are shown for a moment.
+LampCode lamp_code(const ExhibitFacts& facts);
+
+}  // namespace eddy

@@ -1,0 +1,63 @@
+#include "firmware/exhibit/front.h"
+
+#include <utility>
+
+namespace eddy {
+
+Front::Front(std::unique_ptr<Graphics> graphics, HandSide& hand, std::filesystem::path screen_memory,
+             long most_px)
+    : hand_(hand),
+      screen_memory_(std::move(screen_memory)),
+      most_px_(most_px),
+      graphics_(std::move(graphics)) {
+    make();
+}
+
+void Front::make() {
+    screen_ = std::make_unique<Screen>(*graphics_, screen_memory_);
+    playbill_ = std::make_unique<Playbill>(graphics_->gpu, hand_);
+    notice_ = std::make_unique<Notice>(graphics_->gpu);
+}
+
+void Front::announce(const Scene& scene, Act::Setup setup) {
+    last_ = {scene, setup};
+    Scene shaped = scene;
+    if (const auto window = screen_->size_px()) {
+        const SizePx size = picture_size(*window, most_px_);
+        shaped.render.width_px = size.width;
+        shaped.render.height_px = size.height;
+    }
+    playbill_->announce(shaped, std::move(setup));
+}
+
+DisplayState Front::poll(Instant now) {
+    const DisplayState state = screen_->poll(now);
+    if (screen_->graphics_lost()) recover();
+    return state;
+}
+
+/// What was drawn with goes before what it was drawn on.
+void Front::recover() {
+    ++gpu_resets_;
+    hand_.orders().give({});  // no force until another fluid has answered
+    notice_.reset();
+    playbill_.reset();
+    screen_.reset();
+    graphics_ = open_again(std::move(graphics_));
+    make();
+    if (last_) announce(last_->scene, last_->setup);
+}
+
+const gles::Texture& Front::show_act(Instant now, const std::string& caption) {
+    const gles::Texture& picture = act().draw(now, caption).picture();
+    screen_->show(picture);
+    return picture;
+}
+
+const gles::Texture& Front::show_words(const std::vector<std::string>& lines, Instant now) {
+    notice_->draw(lines, now);
+    screen_->show(notice_->picture());
+    return notice_->picture();
+}
+
+}  // namespace eddy

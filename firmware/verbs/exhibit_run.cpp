@@ -1,0 +1,583 @@
+#include "firmware/verbs/exhibit_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "firmware/built_from.h"
+#include "firmware/exhibit/caption.h"
+#include "firmware/exhibit/metrics.h"
+#include "firmware/run_summary.h"
+#include "firmware/text_file.h"
+#include "firmware/verbs/run_device.h"
+#include "firmware/verbs/run_options.h"
+#include "firmware/verbs/stop.h"
+#include "gles/render/window.h"
+#include "hal/gpio/real_gpio.h"
+
+namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Seconds kSlowWarmUp{2.0};  // worth a line
+/// Pictures may take this share of the time; the fluid has the rest.
+constexpr double kRenderShare = 0.4;
+constexpr Instant kReportEvery = 1s;
+constexpr Instant kBlink = 2s;
+constexpr Instant kGuide = 60s;
+/// Turns while nothing is shown.
+constexpr Instant kClosedTurn = 50ms;
+/// In the run folder: the button was held while the machine started.
+constexpr const char* kFactoryMarker = "factory.request";
+constexpr const char* kPowerOff = "poweroff.request";
+
+Instant instant(Seconds s) {
+    return std::chrono::duration_cast<Instant>(s);
+}
+
+std::filesystem::path state_folder(const RunOptions& options) {
+    const std::filesystem::path folder =
+        options.state_dir.empty() ? Exhibit{}.state_dir : std::filesystem::path(options.state_dir);
+    return is_folder(folder) ? folder : std::filesystem::path();
+}
+std::filesystem::path run_folder(const RunOptions& options) {
+    return options.run_dir.empty() ? Exhibit{}.run_dir : std::filesystem::path(options.run_dir);
+}
+
+/// Once.
+bool take_marker(const std::filesystem::path& file) {
+    std::error_code error;
+    return std::filesystem::remove(file, error);
+}
+
+std::string first_line(const std::string& text) {
+    return text.substr(0, text.find('\n'));
+}
+
+bool is_wired(const GpioConfig& gpio) {
+    return !(gpio.button + gpio.stop + gpio.lamp_green + gpio.lamp_amber + gpio.lamp_red).empty();
+}
+
+}  // namespace
+
+ExhibitRun::ExhibitRun(const RunOptions& options)
+    : options_(options),
+      journal_(make_log_sink()),
+      notify_(ServiceNotify::from_environment()),
+      service_(notify_, watchdog_period()),
+      recording_((prepare_folders(options), options.record)) {
+    state_dir_ = state_folder(options);
+}
+
+int ExhibitRun::play() {
+    look_back();
+    open();
+    if (!first_act()) return finish();
+
+    show_began_ = clock_.now();
+    service_.heartbeats().expect(Part::Render, show_began_);
+    service_.heartbeats().expect(Part::Config, show_began_);
+    if (hand_->has_device()) service_.heartbeats().expect(Part::Haptic, show_began_);
+    if (panel_) service_.heartbeats().expect(Part::Gpio, show_began_);
+    Instant last = show_began_;
+    while (!done()) {
+        clock_.sleep_until(last + (is_open_ ? period() : kClosedTurn));
+        const Instant now = clock_.now();
+        turn(now, now - last);
+        last = now;
+    }
+    return finish();
+}
+
+bool ExhibitRun::done() const {
+    if (asked_to_stop() || lost_ || shut_down_) return true;
+    return options_.seconds && clock_.now() - show_began_ >= instant(Seconds(*options_.seconds));
+}
+
+Instant ExhibitRun::period() const {
+    return instant(Seconds(scene_.solver.dt_s));
+}
+
+void ExhibitRun::say(Event event, const std::string& message, const LogSink::Fields& fields) {
+    journal_.say(clock_.now(), event, message, fields);
+}
+
+// ---------------------------------------------------------------------------------------------------- the start
+
+void ExhibitRun::look_back() {
+    if (!notify_.listened_to() || state_dir_.empty()) return;  // somebody who tries something out
+    say(Event::Started, fmt::format("eddy {} ({})", EDDY_VERSION, kBuiltFrom));
+    usage_.emplace(state_dir_);
+    usage_->add(&Usage::starts, 1, wall_time());
+    ledger_.emplace(state_dir_);
+    verdict_ = ledger_->begin(wall_time(), boot_id());
+    if (verdict_.before == EndBefore::Failed) say(Event::EndedBadly, "the run before this one ended by itself");
+    if (verdict_.before == EndBefore::PowerLost) {
+        usage_->add(&Usage::power_cuts, 1, wall_time());
+        say(Event::PowerCut, "the machine went away under the run before this one");
+    }
+    for (const std::string& line : CrashRecord::take_over(state_dir_)) say(Event::Crashed, line);
+    crash_.emplace(state_dir_, journal_.last_lines());
+    if (verdict_.safe)
+        say(Event::SafeMode,
+            verdict_.asked_for
+                ? fmt::format("safe mode, for there is a file {}", (state_dir_ / "safe").string())
+                : fmt::format("safe mode: {} restarts of the machine within an hour", verdict_.restarts));
+    for (const Instant end = clock_.now() + std::chrono::seconds(verdict_.wait_s);
+         clock_.now() < end && !asked_to_stop(); std::this_thread::sleep_for(100ms))
+        service_.preparing(clock_.now(), "waiting before another start");
+}
+
+void ExhibitRun::open() {
+    service_.preparing(clock_.now(), "reading the settings");
+    const bool factory = take_marker(run_folder(options_) / kFactoryMarker);
+    if (factory) say(Event::ConfigFellBack, "the factory's settings, for the button was held at the start");
+    intake_.emplace(ConfigIntake::Setup{.folder = options_.config,
+                                        .state_dir = state_dir_,
+                                        .run_dir = options_.run_dir,
+                                        .orders = {options_.scene, options_.set},
+                                        .factory_only = verdict_.safe || factory});
+    choose(intake_->start());
+    if (is_wired(exhibit_.gpio)) {
+        gpio_ = make_real_gpio();
+        panel_.emplace(*gpio_, exhibit_.gpio);
+    }
+    open_hand();
+    service_.preparing(clock_.now(), "opening the screen");
+    front_.emplace(open_display(exhibit_.display, exhibit_.screen, exhibit_.state_dir), *hand_,
+                   is_folder(exhibit_.state_dir) ? screen_memory(exhibit_.state_dir) : std::filesystem::path(),
+                   exhibit_.screen.max_pixels);
+    visitors_.emplace(Seconds(exhibit_.unattended.idle_after_s));
+    opening_.emplace(exhibit_.hours);
+    if (!state_dir_.empty() && !usage_) usage_.emplace(state_dir_);
+    screenshot_.emplace(is_folder(exhibit_.run_dir) ? exhibit_.run_dir : std::filesystem::path());
+}
+
+void ExhibitRun::open_hand() {
+    RunDevice device = make_device(options_, exhibit_);
+    hand_.emplace(std::move(device.device), std::move(device.name), loop_settings(exhibit_),
+                  flights_folder(exhibit_), panel_ ? &panel_->stop_input() : nullptr);
+    hand_->orders().set_ceiling(exhibit_.max_force_n);
+    hand_->orders().allow(!verdict_.safe);
+    if (crash_) crash_->watch(hand_->flights());
+}
+
+/// Settings from a file that no run can carry out are as bad as those that cannot be read; orders of the command line end it.
+void ExhibitRun::choose(ConfigOffer offer) {
+    for (;;) {
+        exhibit_ = with_options(offer.exhibit, options_);
+        scene_ = offer.scene.scene;
+        try {
+            require_possible(options_, exhibit_, scene_);
+            offer_ = std::move(offer);
+            return;
+        } catch (const std::exception& e) {
+            if (offer.source == ConfigSource::Factory) throw;
+            refuse(offer, e.what(), clock_.now());
+            offer = intake_->start();
+        }
+    }
+}
+
+bool ExhibitRun::first_act() {
+    const RealClock took;
+    front_->announce(scene_, act_setup(options_, exhibit_, scene_, recording_.on() || front_->has_screen(),
+                                       hand_->has_device()));
+    hand_began_ = clock_.now();
+    hand_->start(clock_);
+    while (!asked_to_stop()) {
+        prelude("Getting the fluid ready");
+        intake_->building(offer_->hash);
+        const auto news = front_->prepare();
+        hand_->follow();
+        if (!news) continue;
+        if (news->began) {
+            if (news->prepared > kSlowWarmUp)
+                say(Event::Note, fmt::format("the driver took {:.1f} s to prepare its shaders", Seconds(took.now()).count()));
+            taken(*offer_, clock_.now());
+            offer_.reset();
+            return true;
+        }
+        if (offer_->source == ConfigSource::Factory) throw gles::GlError(news->failed);
+        refuse(*offer_, news->failed, clock_.now());
+        choose(intake_->start());
+        front_->announce(scene_, act_setup(options_, exhibit_, scene_, recording_.on() || front_->has_screen(),
+                                           hand_->has_device()));
+    }
+    return false;
+}
+
+void ExhibitRun::prelude(const std::string& what) {
+    const Instant now = clock_.now();
+    service_.preparing(now, what);
+    lost_ = front_->poll(now) == DisplayState::Lost;
+    if (front_->wants_picture()) front_->show_words({"Eddy is starting", what + "."}, now);
+    if (panel_) panel_->show(LampCode::Starting);
+}
+
+// ----------------------------------------------------------------------------------------------------- a turn
+
+void ExhibitRun::turn(Instant now, Seconds since_last) {
+    ++turns_;
+    if (front_->poll(now) == DisplayState::Lost) {
+        lost_ = true;
+        return;
+    }
+    const bool plays = front_->plays();
+    if (plays && is_open_) front_->act().go_on(now, since_last);
+    if (plays) front_->act().publish(false);
+    draw(now);
+    if (plays) front_->act().publish(false);
+    hand_->follow([this](std::span<const TickRecord> ticks) { recording_.add(ticks); });
+    heed_panel(now);
+    heed_hours(now);
+    heed_visitors(now);
+    heed_settings(now);
+    prepare_next(now);
+    shine(now);
+    report(now);
+}
+
+void ExhibitRun::draw(Instant now) {
+    const bool on_screen = is_open_ && front_->wants_picture();
+    const bool asked = screenshot_->wanted(now);
+    if (!first_frame_ && (on_screen || !front_->has_screen())) {
+        first_frame_ = true;
+        service_.first_frame(now);
+        say(Event::Ready, fmt::format("{} on {}", scene_.title, front_->graphics().display->describe()));
+    }
+    if (!asked && (now < frame_due_ || !(on_screen || recording_.on()))) return;
+
+    const bool words = !front_->plays() || (guide_until_ && now < *guide_until_);
+    const auto show = [&]() -> const gles::Texture& {
+        if (words && front_->plays()) return front_->show_words(guide_page(), now);
+        if (words) return front_->show_words({"One moment", "The picture is being made anew."}, now);
+        return front_->show_act(now, caption_of(*hand_, presence_ == Presence::Leaving));
+    };
+    const auto work = [&] {
+        const gles::Texture& picture = show();
+        if (recording_.on() && now >= frame_due_) recording_.add(front_->gpu(), picture);
+        if (asked)
+            say(Event::Screenshot, screenshot_->give(picture.size().x, picture.size().y,
+                                                     gles::rgb_from_top(front_->gpu(), picture)));
+    };
+    const RealClock clock;
+    if (front_->plays())
+        front_->act().beside_the_fluid(work);
+    else
+        work();
+    if (last_frame_ > Instant(0)) frame_times_.add(now - last_frame_);
+    last_frame_ = now;
+    const Instant pause = instant(Seconds(clock.now()) * ((1.0 - kRenderShare) / kRenderShare));
+    frame_due_ = recording_.on() ? now + std::max(instant(Seconds(1.0 / options_.frames_per_s)), pause)
+                                 : clock_.now() + pause;
+}
+
+void ExhibitRun::heed_panel(Instant now) {
+    if (!panel_) return;
+    const PanelNews news = panel_->news();
+    if (news.resets > 0) {
+        guide_until_.reset();
+        hand_->orders().restart();
+        begin_anew("somebody pressed the button");
+    }
+    if (news.guide) guide_until_ = now + kGuide;
+    if (news.trouble != trouble_) say(Event::Note, news.trouble.empty() ? "all lines are back" : news.trouble);
+    trouble_ = news.trouble;
+    if (news.button_stuck && !button_stuck_)
+        say(Event::Note, "the button has been down for a minute: it is ignored until it is let go");
+    button_stuck_ = news.button_stuck;
+    const auto leave_word = [&](const char* name) {
+        try {
+            replace_text_file(exhibit_.run_dir / name, "");
+        } catch (const std::runtime_error& e) {
+            say(Event::DiskTrouble, e.what());
+        }
+    };
+    if (news.shutdown) {
+        say(Event::Stopping, "the button was held for ten seconds: the machine is switched off");
+        leave_word(kPowerOff);
+        panel_->show(LampCode::ShuttingDown);
+        shut_down_ = true;
+    }
+    if (news.factory) {
+        leave_word(kFactoryMarker);
+        lost_ = true;
+    }
+}
+
+void ExhibitRun::heed_visitors(Instant now) {
+    if (!hand_->has_device() || !front_->plays() || !is_open_) return;
+    const Visitors::News news = visitors_->see(now, front_->act().watch().untouched());
+    presence_ = visitors_->presence();
+    if (news.came) {
+        say(Event::VisitBegan, "somebody is here");
+        if (usage_) usage_->add(&Usage::visits, 1, wall_time());
+    }
+    if (!news.gone) return;
+    say(Event::VisitEnded, fmt::format("gone after {:.0f} s", news.dwell.count()));
+    if (usage_) usage_->add(&Usage::dwell_s, news.dwell.count(), wall_time());
+    begin_anew("nobody is here");
+}
+
+void ExhibitRun::heed_hours(Instant now) {
+    if (now < look_due_) return;
+    look_due_ = now + 1s;
+    const Opening::State& state = opening_->look(wall_time(), clock_sync_.look(ask_kernel()));
+    if (state.open == is_open_) return;
+    is_open_ = state.open;
+    say(is_open_ ? Event::Opened : Event::Closed, describe(state));
+    hand_->orders().allow(is_open_ && !verdict_.safe);
+    front_->set_awake(is_open_);
+    if (is_open_) begin_anew("it opens");
+}
+
+void ExhibitRun::begin_anew(const std::string& why) {
+    if (front_->plays()) front_->act().reset();
+    if (usage_) usage_->add(&Usage::resets, 1, wall_time());
+    say(Event::Reset, "the scene begins anew: " + why);
+}
+
+// -------------------------------------------------------------------------------------------------- the settings
+
+void ExhibitRun::heed_settings(Instant now) {
+    const std::uint64_t refused = intake_->report().refused;
+    std::optional<ConfigOffer> offer = intake_->poll(now);
+    if (const ConfigReport& report = intake_->report(); report.refused > refused) {
+        for (const Diagnostic& error : report.errors) say(Event::ConfigRejected, to_string(error));
+        blink(LampCode::Rejected, now);
+        config_good_ = false;
+    }
+    if (offer) take(std::move(*offer), now);
+}
+
+void ExhibitRun::take(ConfigOffer offer, Instant now) {
+    const Exhibit exhibit = with_options(offer.exhibit, options_);
+    try {
+        require_possible(options_, exhibit, offer.scene.scene);
+        if (!offer.needs_new_scene()) {
+            exhibit_ = exhibit;
+            taken(offer, now);
+            return;
+        }
+        service_.reloading();
+        intake_->building(offer.hash);
+        front_->announce(offer.scene.scene, act_setup(options_, exhibit, offer.scene.scene,
+                                                      recording_.on() || front_->has_screen(),
+                                                      hand_->has_device()));
+        offer_ = std::move(offer);
+    } catch (const std::exception& e) {
+        refuse(offer, e.what(), now);
+    }
+}
+
+void ExhibitRun::prepare_next(Instant now) {
+    if (!front_->preparing()) return;
+    service_.long_work_begins();
+    std::optional<Playbill::News> news;
+    const auto piece = [&] { news = front_->prepare(); };
+    if (front_->plays())
+        front_->act().beside_the_fluid(piece);
+    else
+        piece();
+    service_.long_work_ends(clock_.now());
+    if (!news) return;
+    if (!offer_) {  // after a reset of the GPU
+        if (!news->began) throw gles::GlError(news->failed);
+        return;
+    }
+    const ConfigOffer offer = std::move(*offer_);
+    offer_.reset();
+    service_.first_frame(now);  // the end of reloading
+    if (!news->began) {
+        refuse(offer, news->failed, now);
+        return;
+    }
+    exhibit_ = with_options(offer.exhibit, options_);
+    scene_ = offer.scene.scene;
+    say(Event::Note, fmt::format("the new scene was ready after {:.1f} s of work", news->prepared.count()));
+    taken(offer, now);
+}
+
+void ExhibitRun::taken(const ConfigOffer& offer, Instant now) {
+    intake_->accepted(offer.hash, now);
+    apply_live();
+    config_good_ = offer.source == ConfigSource::New || offer.source == ConfigSource::Factory;
+    taken_at_s_ = static_cast<double>(wall_time());
+    journal_.set_config_hash(offer.hash);
+    if (offer.source == ConfigSource::LastGood)
+        say(Event::ConfigFellBack, "the last good settings, for those in the folder cannot be used");
+    if (!first_frame_) return;
+    std::string keys;
+    for (const KeyChange& change : offer.changes)
+        keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", change.key, change.to);
+    say(Event::ConfigTaken, keys.empty() ? "settings were taken" : "settings were taken: " + keys);
+    blink(LampCode::Accepted, now);
+}
+
+void ExhibitRun::refuse(const ConfigOffer& offer, const std::string& why, Instant now) {
+    intake_->refused(offer.hash, first_line(why));
+    config_good_ = false;
+    say(Event::ConfigRejected, first_line(why));
+    blink(LampCode::Rejected, now);
+}
+
+void ExhibitRun::apply_live() {
+    hand_->orders().set_ceiling(exhibit_.max_force_n);
+    if (front_->plays()) front_->act().show_cost(exhibit_.overlay == OverlayChoice::Cost);
+    visitors_->set_idle_after(Seconds(exhibit_.unattended.idle_after_s));
+    opening_.emplace(exhibit_.hours);
+    look_due_ = Instant(0);
+}
+
+// ------------------------------------------------------------------------------------------- what others are told
+
+ExhibitFacts ExhibitRun::facts() const {
+    const LoopReport& loop = hand_->report();
+    return {.first_frame = first_frame_,
+            .open = is_open_,
+            .safe = verdict_.safe,
+            .has_device = hand_->has_device(),
+            .device = loop.device,
+            .force = loop.reason,
+            .presence = presence_,
+            .has_screen = exhibit_.display == DisplayChoice::Headless || front_->has_screen() ||
+                          exhibit_.display == DisplayChoice::Auto,
+            .button_stuck = button_stuck_ || !trouble_.empty(),
+            .fell_back = intake_->report().source == ConfigSource::LastGood};
+}
+
+void ExhibitRun::blink(LampCode code, Instant now) {
+    blink_ = code;
+    blink_until_ = now + kBlink;
+}
+
+void ExhibitRun::shine(Instant now) {
+    if (!panel_) return;
+    LampCode code = lamp_code(facts());
+    if (guide_until_ && now < *guide_until_) code = LampCode::Guide;
+    if (blink_until_ && now < *blink_until_) code = blink_;
+    panel_->show(shut_down_ ? LampCode::ShuttingDown : code);
+    hand_->exchange().light.publish(panel_->handle_light());
+}
+
+VitalSigns ExhibitRun::vital_signs() const {
+    VitalSigns signs;
+    signs.state = exhibit_state(facts());
+    signs.opening = describe(opening_->state());
+    signs.clock_synchronised = clock_sync_.synchronised();
+    signs.frames = frame_times_;
+    if (usage_) {
+        signs.total = usage_->total();
+        signs.today = usage_->on(wall_time());
+    }
+    signs.config_good = config_good_;
+    signs.config_taken_at_s = taken_at_s_;
+    signs.config_hash = intake_->report().running_hash;
+    signs.gpu_resets = front_->gpu_resets();
+    signs.temperature_c = temperature_c();
+    return signs;
+}
+
+std::vector<std::string> ExhibitRun::guide_page() const {
+    const VitalSigns signs = vital_signs();
+    const LoopReport& loop = hand_->report();
+    return {fmt::format("Eddy {}: {}", EDDY_VERSION, to_word(signs.state)),
+            fmt::format("Scene: {}. {}.", scene_.title, signs.opening),
+            fmt::format("Handle: {}; {}.", to_string(loop.device), to_string(loop.reason)),
+            fmt::format("Settings: {}{}.", to_word(intake_->report().source),
+                        config_good_ ? "" : "; the newest were refused, see config.json"),
+            fmt::format("Today: {:.0f} visits, {:.0f} faults.", signs.today.visits, signs.today.faults),
+            trouble_.empty() ? "Button and lamps: well." : "Button and lamps: " + first_line(trouble_),
+            "Click: back to the show. Ten seconds: switch off."};
+}
+
+void ExhibitRun::tell_of_hand() {
+    const LoopReport& loop = hand_->report();
+    if (hand_->has_device() && loop.device != device_) {
+        const bool ready = loop.device == HapticState::Ready;
+        if (ready || device_ == HapticState::Ready || loop.device == HapticState::Fault) {
+            say(ready ? Event::DeviceFound : Event::DeviceLost, fmt::format("the hand's device is {}", to_string(loop.device)));
+            if (!ready && usage_) usage_->add(&Usage::faults, 1, wall_time());
+        }
+        device_ = loop.device;
+    }
+    if (loop.reason != force_) {
+        const auto grave = {GateReason::Stopped, GateReason::DeviceSilent, GateReason::NotFinite};
+        if (std::find(grave.begin(), grave.end(), loop.reason) != grave.end())
+            say(Event::ForceOff, std::string(to_string(loop.reason)));
+        force_ = loop.reason;
+    }
+}
+
+void ExhibitRun::report(Instant now) {
+    if (front_->plays()) {
+        front_->act().adjust_gain();
+        for (const std::string& line : front_->act().news()) say(Event::QualityChanged, line);
+    }
+    if (const auto news = hand_->flight_news()) say(Event::FlightKept, *news);
+    if (const auto news = front_->news()) say(Event::Note, *news);
+    tell_of_hand();
+    if (const auto cause = hand_->orders().cause_gone(now, hand_->report())) {
+        if (*cause == GateReason::NotFinite && front_->plays()) front_->act().reset();
+        hand_->orders().release_latch();
+    }
+    Heartbeats& beats = service_.heartbeats();
+    beats.see(Part::Render, turns_, now);
+    beats.see(Part::Config, turns_, now);
+    beats.see(Part::Haptic, hand_->report().ticks, now);
+    if (panel_) beats.see(Part::Gpio, panel_->beats(), now);
+    service_.go_on(now);
+    if (now >= report_due_) write_report(now);
+}
+
+void ExhibitRun::write_report(Instant now) {
+    report_due_ = now + kReportEvery;
+    journal_.go_on(now);
+    if (options_.seconds && front_->plays())
+        progress_.show(Seconds(now - show_began_).count(), *options_.seconds,
+                       fmt::format("{} fluid steps", front_->act().show().figures().steps));
+    if (usage_) {
+        if (hand_->report().reason == GateReason::Open)
+            usage_->add(&Usage::force_s, Seconds(kReportEvery).count(), wall_time());
+        if (!usage_->go_on(now)) say(Event::DiskTrouble, "the usage counts could not be written");
+    }
+    if (!front_->plays()) return;
+    Status status = status_of(front_->act(), front_->graphics(), *hand_);
+    status.uptime_s = Seconds(now).count();
+    status.vital_signs = vital_signs();
+    service_.say(now, fmt::format("{}, {:.0f} steps/s, force: {}", to_word(status.vital_signs.state),
+                                  status.cost.steps_per_s, to_word(hand_->report().reason)));
+    if (is_folder(exhibit_.run_dir)) {
+        write_status(exhibit_.run_dir / "status.json", status);
+        const std::string& metrics = exhibit_.unattended.metrics_file;
+        write_metrics(metrics.empty() ? exhibit_.run_dir / "eddy.prom" : std::filesystem::path(metrics), status);
+    }
+}
+
+int ExhibitRun::finish() {
+    service_.stopping();
+    if (hand_) hand_->end();  // with zero force, before anything else is said
+    if (hand_) hand_->follow([this](std::span<const TickRecord> ticks) { recording_.add(ticks); });
+    if (intake_) intake_->stopped();
+    if (ledger_ && !lost_) ledger_->end_well();
+    const Instant now = clock_.now();
+    progress_.finish();
+    recording_.finish();
+    if (front_ && front_->plays()) {
+        hand_->finish_flights();
+        report(now);
+        write_report(now);
+        if (const auto complaint = hand_->complaint()) say(Event::Note, *complaint);
+        print_summary({"real", Seconds(now - hand_began_).count(), Seconds(now - show_began_).count()},
+                      front_->act(), front_->graphics(), *hand_, recording_.recorder());
+    }
+    if (usage_) usage_->write();
+    journal_.flush();
+    if (lost_) return kExitForRestart;
+    return recording_.failed() ? 1 : 0;
+}
+
+}  // namespace eddy

@@ -1,0 +1,125 @@
+#pragma once
+#include <ctime>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/exhibit/clock_sync.h"
+#include "firmware/exhibit/config_intake.h"
+#include "firmware/exhibit/crash_record.h"
+#include "firmware/exhibit/exhibit_state.h"
+#include "firmware/exhibit/front.h"
+#include "firmware/exhibit/hand_side.h"
+#include "firmware/exhibit/journal.h"
+#include "firmware/exhibit/opening_hours.h"
+#include "firmware/exhibit/panel.h"
+#include "firmware/exhibit/screenshot.h"
+#include "firmware/exhibit/service.h"
+#include "firmware/exhibit/start_ledger.h"
+#include "firmware/exhibit/usage.h"
+#include "firmware/exhibit/visitors.h"
+#include "firmware/progress.h"
+#include "firmware/recording.h"
+#include "firmware/status.h"
+#include "firmware/verbs/verbs.h"
+
+namespace eddy {
+
+/// The exhibit from its start to its end, on the machine's clock: the hand's side on its own thread, everything else here. What
+/// can fail while it runs is told and lived with; what cannot be lived with ends the program, and the service manager starts it
+/// again.
+class ExhibitRun {
+  public:
+    /// Reads the settings and opens nothing yet. Throws InputError or ConfigError for orders that cannot be carried out.
+    explicit ExhibitRun(const RunOptions& options);
+    /// The exit status.
+    int play();
+
+  private:
+    // --- the start
+    /// How the last run ended, and what follows from that for this one.
+    void look_back();
+    /// The first settings of which a show can be made: panel, hand and screen as they say.
+    void open();
+    void open_hand();
+    void choose(ConfigOffer offer);
+    /// Until the first act plays. False: told to stop meanwhile.
+    bool first_act();
+    /// Says on the screen, and to the service manager, what takes so long.
+    void prelude(const std::string& what);
+
+    // --- a turn
+    void turn(Instant now, Seconds since_last);
+    void draw(Instant now);
+    void heed_panel(Instant now);
+    void heed_visitors(Instant now);
+    void heed_hours(Instant now);
+    void heed_settings(Instant now);
+    void take(ConfigOffer offer, Instant now);
+    void taken(const ConfigOffer& offer, Instant now);
+    void refuse(const ConfigOffer& offer, const std::string& why, Instant now);
+    void prepare_next(Instant now);
+    void apply_live();
+    void begin_anew(const std::string& why);
+    void shine(Instant now);
+    void blink(LampCode code, Instant now);
+    void tell_of_hand();
+    void report(Instant now);
+    void write_report(Instant now);
+    int finish();
+
+    bool done() const;
+    Instant period() const;
+    ExhibitFacts facts() const;
+    VitalSigns vital_signs() const;
+    std::vector<std::string> guide_page() const;
+    void say(Event event, const std::string& message, const LogSink::Fields& fields = {});
+    std::time_t wall_time() const { return std::time(nullptr); }
+
+    RunOptions options_;
+    RealClock clock_;
+    std::filesystem::path state_dir_;  ///< as it was at the start; empty: nothing outlives this run
+    Journal journal_;
+    ServiceNotify notify_;
+    Service service_;
+    std::optional<StartLedger> ledger_;
+    StartLedger::Verdict verdict_;
+    std::optional<ConfigIntake> intake_;
+    std::optional<ConfigOffer> offer_;  ///< that is being built
+    Exhibit exhibit_;
+    Scene scene_;
+
+    std::unique_ptr<Gpio> gpio_;
+    std::optional<Panel> panel_;
+    std::optional<HandSide> hand_;
+    std::optional<CrashRecord> crash_;  ///< after the hand: it looks at its flights
+    std::optional<Front> front_;
+    Recording recording_;
+    Progress progress_{"run"};
+
+    std::optional<Visitors> visitors_;
+    std::optional<Opening> opening_;
+    ClockSync clock_sync_;
+    std::optional<UsageBook> usage_;
+    std::optional<Screenshot> screenshot_;
+    FrameTimes frame_times_;
+
+    Instant hand_began_{0}, show_began_{0};
+    bool first_frame_ = false;
+    bool lost_ = false;  ///< only a new process can help
+    bool shut_down_ = false;
+    bool is_open_ = true;
+    Presence presence_ = Presence::Nobody;
+    std::string trouble_;  ///< of the panel
+    bool button_stuck_ = false;
+    HapticState device_ = HapticState::Absent;  ///< as told last
+    GateReason force_ = GateReason::Disabled;   ///< so far
+    std::optional<Instant> guide_until_, blink_until_;
+    LampCode blink_ = LampCode::Accepted;
+    Instant frame_due_{0}, report_due_{0}, look_due_{0}, last_frame_{0};
+    std::uint64_t turns_ = 0;
+    double taken_at_s_ = 0.0;
+    bool config_good_ = true;
+};
+
+}  // namespace eddy
