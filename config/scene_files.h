@@ -1,12 +1,17 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "config/scene.h"
 
 namespace eddy {
 
-/// The file names that a scene holds: meshes, paths, flows. They point into the scene.
-std::vector<std::filesystem::path*> files_of(Scene& scene);
+/// A file that a scene names: a mesh, a path, a flow.
+struct SceneFile {
+    std::string key;  ///< "body.0.file", as --set takes it
+    std::filesystem::path path;
+};
+std::vector<SceneFile> files_of(Scene scene);
 
 }  // namespace eddy

@@ -134,8 +134,7 @@ void FolderWatch::read_events(Instant now, News& news, bool& again) {
             if (found == purposes_.end()) continue;
             const Purpose& purpose = found->second;
             if (event.mask & kGone) {
-                if (purpose.files && (event.mask & (IN_IGNORED | IN_UNMOUNT | IN_MOVE_SELF)))
-                    ++counters_.lost;
+                if (purpose.files && (event.mask & (IN_IGNORED | IN_MOVE_SELF))) ++counters_.lost;
                 if (event.mask & IN_IGNORED) purposes_.erase(found);
                 news.changed = again = true;
                 continue;

@@ -70,6 +70,8 @@ class ConfigIntake {
     void refused(const std::string& hash, const std::string& reason);
     void stopped();
 
+    /// Something is being read or kept.
+    bool busy() const { return reading_.valid() || keeping_.valid(); }
     const ConfigReport& report() const { return report_; }
     const FolderWatch::Counters& watch_counters() const { return watch_.counters(); }
 

@@ -92,15 +92,16 @@ std::optional<ConfigSet> ConfigMemory::last_good(const SceneOrders& orders) {
         files.exhibit.drop_ins = files_of(j.at("drop_ins"));
         files.exhibit.sums = files_of(j.at("sums"));
         files.scene = files_of(j.at("scene"));
-        std::map<std::string, std::string> moved;
+        std::vector<std::filesystem::path> copies;
         for (const Json& one : j.at("refers")) {
             const std::string path = one.at("path"), copy = one.at("copy");
             const std::string bytes = read_text_file(folder_ / "files" / copy);
             if (copy != copy_name({path, bytes})) throw std::runtime_error("a copy is another");
             files.refers.push_back({path, bytes});
-            moved[path] = (folder_ / "files" / copy).string();
+            files.keys.push_back(one.at("key"));
+            copies.push_back(folder_ / "files" / copy);
         }
-        ConfigSet set = config_set_of(files, orders, moved);
+        ConfigSet set = config_set_of(files, orders, copies);
         if (!set.good()) return std::nullopt;  // it was, to another version of the program
         last_good_hash_ = set.hash;
         return set;
@@ -115,9 +116,10 @@ void ConfigMemory::keep_as_last_good(const ConfigSet& set) {
         const std::filesystem::path copies = folder_ / "files";
         Json refers = Json::array();
         std::set<std::string> wanted;
-        for (const WrittenFile& file : set.files.refers) {
+        for (std::size_t i = 0; i < set.files.refers.size(); ++i) {
+            const WrittenFile& file = set.files.refers[i];
             const std::string copy = copy_name(file);
-            refers.push_back({{"path", file.path.string()}, {"copy", copy}});
+            refers.push_back({{"key", set.files.keys[i]}, {"path", file.path.string()}, {"copy", copy}});
             wanted.insert(copy);
             if (std::filesystem::exists(copies / copy) && read_text_file(copies / copy) == file.text)
                 continue;

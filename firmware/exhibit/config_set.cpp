@@ -35,8 +35,9 @@ std::string hash_of(const ConfigFiles& files) {
 /// Which scene, for one preset after the other in place of its own.
 LoadedScene read_the_scene(const ConfigSet& set, const std::string& name,
                            const std::vector<std::string>& orders) {
-    return set.files.scene.empty() ? load_scene(name, orders)
-                                   : read_scene(set.files.scene.front().text, name, orders);
+    const std::vector<WrittenFile>& read = set.files.scene;
+    return !read.empty() && read.front().path == name ? read_scene(read.front().text, name, orders)
+                                                      : load_scene(name, orders);
 }
 
 void check_presets(ConfigSet& set, const std::string& name, const SceneOrders& orders) {
@@ -88,8 +89,9 @@ ConfigSet read_config_set(const std::filesystem::path& folder, const SceneOrders
             if (is_scene_file(name)) read_written_file(name, Links::Follow, set.files.scene);
             read_scene_into(set, orders);
             std::size_t room = kMostReferredBytes;
-            for (const std::filesystem::path* file : files_of(set.scene.scene)) {
-                set.files.refers.push_back({*file, read_whole_file(*file, Links::Follow, room)});
+            for (const SceneFile& file : files_of(set.scene.scene)) {
+                set.files.refers.push_back({file.path, read_whole_file(file.path, Links::Follow, room)});
+                set.files.keys.push_back(file.key);
                 room -= set.files.refers.back().text.size();
             }
         } catch (const ConfigError& error) {
@@ -101,16 +103,21 @@ ConfigSet read_config_set(const std::filesystem::path& folder, const SceneOrders
 }
 
 ConfigSet config_set_of(const ConfigFiles& files, const SceneOrders& orders,
-                        const std::map<std::string, std::string>& moved) {
+                        const std::vector<std::filesystem::path>& refers) {
     ConfigSet set;
     set.files = files;
     set.hash = hash_of(files);
     read_exhibit_into(set);
     if (!names_a_scene(set, orders)) return set;
+    SceneOrders moved = orders;
+    if (orders.scene.empty()) {
+        moved.set.clear();
+        for (std::size_t i = 0; i < refers.size(); ++i)
+            moved.set.push_back(fmt::format("{}={}", files.keys[i], in_quotes(refers[i].string())));
+        moved.set.insert(moved.set.end(), orders.set.begin(), orders.set.end());
+    }
     try {
-        read_scene_into(set, orders);
-        for (std::filesystem::path* file : files_of(set.scene.scene))
-            if (const auto found = moved.find(file->string()); found != moved.end()) *file = found->second;
+        read_scene_into(set, moved);
     } catch (const ConfigError& error) {
         append(set.diagnostics, error.diagnostics());
     }

@@ -1,5 +1,4 @@
 #pragma once
-#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +18,7 @@ struct ConfigFiles {
     ExhibitFiles exhibit;
     std::vector<WrittenFile> scene{};   ///< the scene's file and its sum, if it is no shipped scene
     std::vector<WrittenFile> refers{};  ///< what the scene names: meshes, paths, flows
+    std::vector<std::string> keys{};    ///< of the scene, under which it names them: as many
 };
 
 /// A configuration read once, and everything that is wrong with it. What the caller builds comes from here, so that what was
@@ -41,9 +41,9 @@ inline constexpr std::size_t kMostReferredBytes = 64 << 20;
 /// Reads and checks a folder. Never throws for what is in it. Safe on any thread.
 ConfigSet read_config_set(const std::filesystem::path& folder, const SceneOrders& orders);
 
-/// The same from files read earlier; `moved` says where a file that the scene names lies now.
+/// The same from files read earlier; what the scene names lies at `refers` now, one for each of files.refers.
 ConfigSet config_set_of(const ConfigFiles& files, const SceneOrders& orders,
-                        const std::map<std::string, std::string>& moved);
+                        const std::vector<std::filesystem::path>& refers);
 
 /// What the binary ships, with no file. Only the orders can be wrong with it.
 ConfigSet factory_set(const SceneOrders& orders);

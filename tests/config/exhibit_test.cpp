@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "config/scene.h"
 #include "tests/config/complaints.h"
 
 namespace eddy {
@@ -61,7 +62,7 @@ TEST_F(ExhibitFolder, ADropInCanLowerTheCeilingOfTheForceAndNotRaiseIt) {
     EXPECT_THAT(complaints([&] { load_exhibit(folder_); }),
                 ElementsAre(AllOf(StartsWith(drop_in + ":1:15:"), HasSubstr("without them it is 3;"),
                                   HasSubstr("exhibit.toml"))));
-    write("exhibit.toml", "");
+    write("exhibit.toml", "# nothing\n");
     EXPECT_THAT(complaints([&] { load_exhibit(folder_); }), testing::SizeIs(0)) << "the factory's is 4";
     write("conf.d/10-site.toml", "max_force_n = 4.5\n");
     EXPECT_THAT(complaints([&] { load_exhibit(folder_); }), testing::SizeIs(1));
@@ -85,6 +86,43 @@ TEST_F(ExhibitFolder, MistakesNameTheFileTheyAreIn) {
                       "\"auto\", \"none\", \"emulated\"",
             drop_in + ":3:15: max_force_n: 9 is out of range: must be at least 0 and at most 8",
             main + ":1:1: scen: unknown key; nearest valid key: scene"));
+}
+
+TEST_F(ExhibitFolder, MistakesOfAllFilesAreToldAtOnceAlsoWhereALaterFileWins) {
+    const std::string main = write("exhibit.toml", "max_force_n = 99\ndisplay = 3\n");
+    const std::string second = write("conf.d/10-site.toml", "= 1\n");
+    const std::string third = write("conf.d/20-hall.toml", "max_force_n = 1\nscene = \"sitr\"\n");
+    const std::string cut = write("conf.d/30-cut.toml", "max_force");
+    write("conf.d/.10-site.toml", "hidden");
+    EXPECT_THAT(complaints([&] { load_exhibit(folder_); }),
+                ElementsAre(StartsWith(second + ":1:1: "), StartsWith(third + ":2:9: scene: "),
+                            StartsWith(cut + ":1:10: seems to be cut off"), StartsWith(cut + ":1:10: "),
+                            StartsWith(main + ":1:15: max_force_n: 99 is out of range"),
+                            StartsWith(main + ":2:11: display: ")));
+}
+
+TEST_F(ExhibitFolder, DropInsAreNoLinks) {
+    write("there.toml", "max_force_n = 1\n");
+    std::filesystem::create_symlink("../there.toml", folder_ / "conf.d/10.toml");
+    EXPECT_THAT(complaints([&] { load_exhibit(folder_); }), ElementsAre(HasSubstr("is a symbolic link")));
+    std::filesystem::remove(folder_ / "conf.d/10.toml");
+    std::filesystem::create_symlink("there.toml", folder_ / "exhibit.toml");
+    EXPECT_EQ(load_exhibit(folder_).exhibit.max_force_n, 1.0);
+}
+
+TEST_F(ExhibitFolder, ASceneFileIsNamedFromTheFolder) {
+    const std::string file = write("exhibit.toml", "scene = \"scenes/hall.toml\"\n");
+    const std::string absolute = (folder_ / "scenes/hall.toml").lexically_normal();
+    EXPECT_EQ(load_exhibit(folder_).exhibit.scene, absolute);
+    EXPECT_EQ(load_exhibit_file(file).exhibit.scene, absolute);
+    const std::string drop_in = write("conf.d/10.toml", "scene = \"scenes/hall.toml\"\n");
+    EXPECT_EQ(load_exhibit_file(drop_in).exhibit.scene, absolute);
+}
+
+TEST_F(ExhibitFolder, AFileOfTheFalconAloneIsNoScene) {
+    EXPECT_FALSE(
+        holds_a_scene(write("exhibit.toml", "haptics = \"none\"\npresets = []\n[falcon]\nserial = \"F\"\n")));
+    EXPECT_TRUE(holds_a_scene(write("scene.toml", "[haptics]\ngain = 1\n")));
 }
 
 TEST_F(ExhibitFolder, UnknownSceneNamesTheNearest) {
