@@ -76,7 +76,8 @@ class Reader {
 
     template <class Struct>
     void table(std::string_view key, std::optional<Struct>& field, std::string_view /*doc*/) {
-        if (const Node* node = take(key)) read_table(*node, path_to(key), field.emplace());
+        if (const Node* node = take(key))
+            read_table(*node, path_to(key), field.emplace(Struct{}));  // clang 14 refuses emplace()
     }
 
     template <class Struct>

@@ -14,9 +14,25 @@ namespace {
 
 TEST(ConfigFuzz, SettingsInLayersAreTakenOrRefused) {
     const std::string factory = print_exhibit({});
-    const std::string layers = factory + "\n%%\nmax_force_n = 2\n[falcon]\nserial = \"F\"\n\n%%\nscene = \"stir\"\n";
-    const std::string scraps[] = {"\n%%\n", "=", "[", "]", "\"", "nan", "-1", "9", "max_force_n = 1\n", "[[falcon]]\n", "\\u0000",
-                                  "'''", "\xff", "presets = [\"fast\", \"precise\"]\n", "{}", "#", "\n"};
+    const std::string layers =
+        factory + "\n%%\nmax_force_n = 2\n[falcon]\nserial = \"F\"\n\n%%\nscene = \"stir\"\n";
+    const std::string scraps[] = {"\n%%\n",
+                                  "=",
+                                  "[",
+                                  "]",
+                                  "\"",
+                                  "nan",
+                                  "-1",
+                                  "9",
+                                  "max_force_n = 1\n",
+                                  "[[falcon]]\n",
+                                  "\\u0000",
+                                  "'''",
+                                  "\xff",
+                                  "presets = [\"fast\", \"precise\"]\n",
+                                  "{}",
+                                  "#",
+                                  "\n"};
     std::mt19937_64 random(20261122);
     for (int i = 0; i < 5000; ++i) {
         SCOPED_TRACE(testing::Message() << "input " << i);
