@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <charconv>
+#include <stdexcept>
 
 #include "cmake/embedded.h"
 #include "config/exhibit_keys.h"

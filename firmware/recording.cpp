@@ -6,7 +6,7 @@
 
 namespace eddy {
 
-Recording::Recording(const std::string& folder) {
+void Recording::begin(const std::string& folder) {
     if (!folder.empty()) recorder_.emplace(folder);
 }
 

@@ -9,8 +9,8 @@ namespace eddy {
 /// What `--record` keeps of a run, if it was asked for. A disk that is full ends the recording, not the run.
 class Recording {
   public:
-    /// `folder` empty: nothing is kept.
-    explicit Recording(const std::string& folder);
+    /// From now on, in this folder; empty: nothing is kept.
+    void begin(const std::string& folder);
 
     bool on() const { return recorder_.has_value(); }
     void add(std::span<const TickRecord> ticks);

@@ -17,7 +17,8 @@ class Front {
   public:
     /// `screen_memory`: the file that keeps which screen was used last; empty: none. `most_px`: pictures are drawn no larger;
     /// 0: as large as the screen.
-    Front(std::unique_ptr<Graphics> graphics, HandSide& hand, std::filesystem::path screen_memory, long most_px);
+    Front(std::unique_ptr<Graphics> graphics, HandSide& hand, std::filesystem::path screen_memory,
+          long most_px);
 
     /// Another act is to follow, in pictures of the screen's shape.
     void announce(const Scene& scene, Act::Setup setup);

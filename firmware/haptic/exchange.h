@@ -38,9 +38,10 @@ struct PoseSnapshot {
 
 /// To the loop: what the exhibit wants of it.
 struct HapticOrders {
-    bool enabled = false;               ///< force allowed; drop it on pause, scene change and fluid reset
-    double gain = 1.0;                  ///< newtons on the hand per newton on the body
-    double most_n = kDeviceMaxForceN;   ///< on the hand; a lower one than before is reached within the slew limit
+    bool enabled = false;  ///< force allowed; drop it on pause, scene change and fluid reset
+    double gain = 1.0;     ///< newtons on the hand per newton on the body
+    double most_n =
+        kDeviceMaxForceN;  ///< on the hand; a lower one than before is reached within the slew limit
     TankFromDevice tank_from_device{};  ///< where the hand's workspace lies in the tank
     glm::dvec3 lowest_m{0.0};           ///< corners of the box the body's centre may not leave, Tank frame
     glm::dvec3 highest_m{0.0};

@@ -16,7 +16,8 @@ constexpr std::string_view kFirstLine = "eddy flight 2";
 /// An hour; those that are written have six seconds.
 constexpr std::size_t kMostTicks = 3'600'000;
 constexpr std::string_view kColumns =
-    "# orders: enabled gain most [N], tank under the device's origin x y z, scale, lowest x y z, highest x y z [m], "
+    "# orders: enabled gain most [N], tank under the device's origin x y z, scale, lowest x y z, highest x y "
+    "z [m], "
     "resets stop restarts\n"
     "# fluid: force x y z [N], torque x y z [N m], number, for the pose of [ns], period [s], velocity x y z "
     "[m/s],\n"

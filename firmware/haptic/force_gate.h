@@ -62,14 +62,14 @@ struct GateLimits {
 };
 
 struct GateInput {
-    glm::dvec3 force_n{0.0};     ///< wanted on the hand, Device frame
+    glm::dvec3 force_n{0.0};           ///< wanted on the hand, Device frame
     double most_n = kDeviceMaxForceN;  ///< for now; GateLimits::max_force_n holds besides
-    double speed_m_s = 0.0;      ///< of the handle; not finite if the reading was not
-    bool enabled = false;        ///< dead man's switch: held, running and allowed, said anew each tick
-    bool device_ready = false;   ///< Ready and has answered
-    bool device_silent = false;  ///< reply missing too long; latches
-    bool fluid_stale = true;     ///< fluid force too old to be believed
-    bool reset = false;          ///< forget the latch; it closes again at once if its cause persists
+    double speed_m_s = 0.0;            ///< of the handle; not finite if the reading was not
+    bool enabled = false;              ///< dead man's switch: held, running and allowed, said anew each tick
+    bool device_ready = false;         ///< Ready and has answered
+    bool device_silent = false;        ///< reply missing too long; latches
+    bool fluid_stale = true;           ///< fluid force too old to be believed
+    bool reset = false;                ///< forget the latch; it closes again at once if its cause persists
 };
 
 struct GateCounters {

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "firmware/built_from.h"
+#include "firmware/destination.h"
 #include "firmware/exhibit/caption.h"
 #include "firmware/exhibit/metrics.h"
 #include "firmware/run_summary.h"
@@ -66,8 +67,8 @@ ExhibitRun::ExhibitRun(const RunOptions& options)
     : options_(options),
       journal_(make_log_sink()),
       notify_(ServiceNotify::from_environment()),
-      service_(notify_, watchdog_period()),
-      recording_((prepare_folders(options), options.record)) {
+      service_(notify_, watchdog_period()) {
+    prepare_folders(options);
     state_dir_ = state_folder(options);
 }
 
@@ -113,7 +114,8 @@ void ExhibitRun::look_back() {
     usage_->add(&Usage::starts, 1, wall_time());
     ledger_.emplace(state_dir_);
     verdict_ = ledger_->begin(wall_time(), boot_id());
-    if (verdict_.before == EndBefore::Failed) say(Event::EndedBadly, "the run before this one ended by itself");
+    if (verdict_.before == EndBefore::Failed)
+        say(Event::EndedBadly, "the run before this one ended by itself");
     if (verdict_.before == EndBefore::PowerLost) {
         usage_->add(&Usage::power_cuts, 1, wall_time());
         say(Event::PowerCut, "the machine went away under the run before this one");
@@ -145,10 +147,13 @@ void ExhibitRun::open() {
         panel_.emplace(*gpio_, exhibit_.gpio);
     }
     open_hand();
+    if (!options_.record.empty()) prepare_folder("--record", options_.record);
+    recording_.begin(options_.record);
     service_.preparing(clock_.now(), "opening the screen");
-    front_.emplace(open_display(exhibit_.display, exhibit_.screen, exhibit_.state_dir), *hand_,
-                   is_folder(exhibit_.state_dir) ? screen_memory(exhibit_.state_dir) : std::filesystem::path(),
-                   exhibit_.screen.max_pixels);
+    front_.emplace(
+        open_display(exhibit_.display, exhibit_.screen, exhibit_.state_dir), *hand_,
+        is_folder(exhibit_.state_dir) ? screen_memory(exhibit_.state_dir) : std::filesystem::path(),
+        exhibit_.screen.max_pixels);
     visitors_.emplace(Seconds(exhibit_.unattended.idle_after_s));
     opening_.emplace(exhibit_.hours);
     if (!state_dir_.empty() && !usage_) usage_.emplace(state_dir_);
@@ -195,7 +200,8 @@ bool ExhibitRun::first_act() {
         if (!news) continue;
         if (news->began) {
             if (news->prepared > kSlowWarmUp)
-                say(Event::Note, fmt::format("the driver took {:.1f} s to prepare its shaders", Seconds(took.now()).count()));
+                say(Event::Note, fmt::format("the driver took {:.1f} s to prepare its shaders",
+                                             Seconds(took.now()).count()));
             taken(*offer_, clock_.now());
             offer_.reset();
             return true;
@@ -203,8 +209,8 @@ bool ExhibitRun::first_act() {
         if (offer_->source == ConfigSource::Factory) throw gles::GlError(news->failed);
         refuse(*offer_, news->failed, clock_.now());
         choose(intake_->start());
-        front_->announce(scene_, act_setup(options_, exhibit_, scene_, recording_.on() || front_->has_screen(),
-                                           hand_->has_device()));
+        front_->announce(scene_, act_setup(options_, exhibit_, scene_,
+                                           recording_.on() || front_->has_screen(), hand_->has_device()));
     }
     return false;
 }
@@ -284,7 +290,8 @@ void ExhibitRun::heed_panel(Instant now) {
         begin_anew("somebody pressed the button");
     }
     if (news.guide) guide_until_ = now + kGuide;
-    if (news.trouble != trouble_) say(Event::Note, news.trouble.empty() ? "all lines are back" : news.trouble);
+    if (news.trouble != trouble_)
+        say(Event::Note, news.trouble.empty() ? "all lines are back" : news.trouble);
     trouble_ = news.trouble;
     if (news.button_stuck && !button_stuck_)
         say(Event::Note, "the button has been down for a minute: it is ignored until it is let go");
@@ -364,9 +371,9 @@ void ExhibitRun::take(ConfigOffer offer, Instant now) {
         }
         service_.reloading();
         intake_->building(offer.hash);
-        front_->announce(offer.scene.scene, act_setup(options_, exhibit, offer.scene.scene,
-                                                      recording_.on() || front_->has_screen(),
-                                                      hand_->has_device()));
+        front_->announce(offer.scene.scene,
+                         act_setup(options_, exhibit, offer.scene.scene,
+                                   recording_.on() || front_->has_screen(), hand_->has_device()));
         offer_ = std::move(offer);
     } catch (const std::exception& e) {
         refuse(offer, e.what(), now);
@@ -499,7 +506,8 @@ void ExhibitRun::tell_of_hand() {
     if (hand_->has_device() && loop.device != device_) {
         const bool ready = loop.device == HapticState::Ready;
         if (ready || device_ == HapticState::Ready || loop.device == HapticState::Fault) {
-            say(ready ? Event::DeviceFound : Event::DeviceLost, fmt::format("the hand's device is {}", to_string(loop.device)));
+            say(ready ? Event::DeviceFound : Event::DeviceLost,
+                fmt::format("the hand's device is {}", to_string(loop.device)));
             if (!ready && usage_) usage_->add(&Usage::faults, 1, wall_time());
         }
         device_ = loop.device;
@@ -553,7 +561,8 @@ void ExhibitRun::write_report(Instant now) {
     if (is_folder(exhibit_.run_dir)) {
         write_status(exhibit_.run_dir / "status.json", status);
         const std::string& metrics = exhibit_.unattended.metrics_file;
-        write_metrics(metrics.empty() ? exhibit_.run_dir / "eddy.prom" : std::filesystem::path(metrics), status);
+        write_metrics(metrics.empty() ? exhibit_.run_dir / "eddy.prom" : std::filesystem::path(metrics),
+                      status);
     }
 }
 

@@ -51,7 +51,6 @@ std::filesystem::path flights_folder(const Exhibit& exhibit) {
 }
 
 void prepare_folders(const RunOptions& options) {
-    if (!options.record.empty()) prepare_folder("--record", options.record);
     if (!options.run_dir.empty()) prepare_folder("--run-dir", options.run_dir);
     if (!options.state_dir.empty()) prepare_folder("--state-dir", options.state_dir);
 }

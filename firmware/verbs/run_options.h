@@ -21,7 +21,7 @@ std::filesystem::path flights_folder(const Exhibit& exhibit);
 
 /// Throws InputError, with the option's name, for what no run of this scene can do.
 void require_possible(const RunOptions& options, const Exhibit& exhibit, const Scene& scene);
-/// Makes the folders that options name; throws InputError for those that cannot be.
+/// Makes the folders for state and status that options name; throws InputError for those that cannot be.
 void prepare_folders(const RunOptions& options);
 
 }  // namespace eddy

@@ -33,12 +33,14 @@ int run_stepped(const RunOptions& options) {
     require_possible(options, exhibit, scene);
     RunDevice device = make_device(options, exhibit);
     prepare_folders(options);
+    if (!options.record.empty()) prepare_folder("--record", options.record);
 
     HandSide hand(std::move(device.device), std::move(device.name), loop_settings(exhibit),
                   flights_folder(exhibit));
     hand.orders().set_ceiling(exhibit.max_force_n);
     const std::unique_ptr<Graphics> graphics = open_headless();
-    Recording recording(options.record);
+    Recording recording;
+    recording.begin(options.record);
     Playbill playbill(graphics->gpu, hand);
     playbill.announce(scene, act_setup(options, exhibit, scene, recording.on(), hand.has_device()));
     std::optional<Playbill::News> news;

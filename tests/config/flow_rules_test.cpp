@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "tests/config/complaints.h"
 #include "tests/config/whole_schema.h"
 
 namespace eddy {
@@ -14,7 +15,6 @@ using testing::StartsWith;
 
 const std::string kWater = "[fluid]\nviscosity_pa_s = 0.001\n";
 const std::string kEarth = "[fluid]\ngravity_m_s2 = [0, -9.81, 0]\n";
-const std::string kBody = "[[body]]\nradius_m = 0.01\ncentre_m = [0.08, 0.08, 0.08]\n";
 
 std::string walls(const std::string& keys) {
     return "[tank.walls]\n" + keys + "\n";

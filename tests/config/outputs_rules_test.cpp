@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/config/complaints.h"
 #include "tests/config/whole_schema.h"
 
 namespace eddy {
@@ -13,7 +14,6 @@ using testing::StartsWith;
 const std::string kProbe = "[[probe]]\nquantity = \"velocity\"\n";
 const std::string kPoint = "point_m = [0.1, 0.1, 0.1]\n";
 const std::string kLine = "from_m = [0.1, 0, 0]\nto_m = [0.1, 0.16, 0]\npoints = 3\n";
-const std::string kBody = "[[body]]\nradius_m = 0.01\ncentre_m = [0.08, 0.08, 0.08]\n";
 
 TEST(ProbeRules, AProbeIsAPointOrALine) {
     EXPECT_THAT(faults_of(kProbe + kPoint), IsEmpty());

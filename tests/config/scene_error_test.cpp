@@ -196,7 +196,6 @@ TEST(SceneError, SuggestedTankSizeIsAccepted) {
 }
 
 const std::string kSource = "[[source]]\ncentre_m = [0.08, 0.08, 0.08]\nradius_m = 0.01\n";
-const std::string kBody = "[[body]]\nradius_m = 0.01\ncentre_m = [0.08, 0.08, 0.08]\n";
 
 TEST(SceneError, SmokeSourceNeedsTheSmokeEffect) {
     EXPECT_THAT(complaints_about(kSource + "smoke_per_s = 1\n"),

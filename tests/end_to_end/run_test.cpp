@@ -132,7 +132,8 @@ TEST(Run, EndsByItselfAndSaysHowItWent) {
                                             "divergence", "force",    "haptic loop", "gate",  "recorded"};
     for (std::size_t i = 0; i < heads.size(); ++i) EXPECT_EQ(lines[i].rfind(heads[i], 0), 0u) << lines[i];
 
-    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"run/", "run/status.json"}));
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"run/", "run/eddy.prom", "run/status.json",
+                                                          "run/status/", "run/status/config.json"}));
     const nlohmann::json status = nlohmann::json::parse(read_all(folder / "run/status.json"));
     const double uptime = status.at("uptime_s");
     EXPECT_GE(uptime, 1.0);
@@ -150,7 +151,9 @@ TEST(Run, EndsByItselfAndSaysHowItWent) {
     // However busy the machine: each millisecond's tick is run, or left out and counted; none is lost in between.
     const int ticks = status.at("haptics").at("ticks"), missed = status.at("haptics").at("missed");
     EXPECT_GT(ticks, 0);
-    EXPECT_NEAR(ticks + missed, 1000.0 * uptime, 50.0) << status.dump(2);
+    // The hand's loop begins once there is a fluid to be made ready, and the show when it is.
+    EXPECT_GE(ticks + missed, 1000) << status.dump(2);
+    EXPECT_LE(ticks + missed, 1000.0 * uptime + 50.0) << status.dump(2);
 }
 
 TEST(Run, EndsCleanlyWithinTwoSecondsOfBeingTold) {

@@ -5,10 +5,8 @@
 namespace eddy {
 namespace {
 
-const ExhibitFacts kWell{.first_frame = true,
-                         .has_device = true,
-                         .device = HapticState::Ready,
-                         .force = GateReason::Open};
+const ExhibitFacts kWell{
+    .first_frame = true, .has_device = true, .device = HapticState::Ready, .force = GateReason::Open};
 
 TEST(ExhibitState, IsAttractUntilSomebodyComes) {
     ExhibitFacts facts = kWell;
@@ -39,12 +37,12 @@ TEST(ExhibitState, ClosedIsNoFailure) {
 }
 
 TEST(ExhibitState, EachThingThatIsMissingDegrades) {
-    for (const auto spoil : {+[](ExhibitFacts& f) { f.device = HapticState::Absent; },
-                             +[](ExhibitFacts& f) { f.device = HapticState::Homing; },
-                             +[](ExhibitFacts& f) { f.force = GateReason::DeviceSilent; },
-                             +[](ExhibitFacts& f) { f.has_screen = false; },
-                             +[](ExhibitFacts& f) { f.button_stuck = true; },
-                             +[](ExhibitFacts& f) { f.fell_back = true; }}) {
+    for (const auto spoil :
+         {+[](ExhibitFacts& f) { f.device = HapticState::Absent; },
+          +[](ExhibitFacts& f) { f.device = HapticState::Homing; },
+          +[](ExhibitFacts& f) { f.force = GateReason::DeviceSilent; },
+          +[](ExhibitFacts& f) { f.has_screen = false; }, +[](ExhibitFacts& f) { f.button_stuck = true; },
+          +[](ExhibitFacts& f) { f.fell_back = true; }}) {
         ExhibitFacts facts = kWell;
         spoil(facts);
         EXPECT_EQ(exhibit_state(facts), ExhibitState::Degraded);

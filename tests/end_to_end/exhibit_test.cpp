@@ -1,0 +1,201 @@
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/end_to_end/program.h"
+#include "tests/firmware/exhibit/manager_socket.h"
+
+// The exhibit while it runs: settings dropped into its folder, a manager that listens, an end that was not asked for.
+
+namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::AnyOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// An exhibit on small grids, with folders of its own.
+class ExhibitEndToEnd : public testing::Test {
+  protected:
+    ExhibitEndToEnd() {
+        for (const char* name : {"etc", "run", "var"}) std::filesystem::create_directory(folder / name);
+    }
+    std::vector<std::string> command() const {
+        return eddy_command({"run", "--display", "headless", "--haptics", "emulated", "--config",
+                             folder / "etc", "--run-dir", folder / "run", "--state-dir", folder / "var",
+                             "--set", kTiny, "--set", "render.width_px=160", "--set",
+                             "render.height_px=120"});
+    }
+    /// As careful writers do it.
+    void drop(const std::string& text) const {
+        folder.write("etc/.new", text);
+        std::filesystem::rename(folder / "etc/.new", folder / "etc/exhibit.toml");
+    }
+    nlohmann::json read(const std::string& name) const {
+        return nlohmann::json::parse(read_all(folder / ("run/" + name)), nullptr, false);
+    }
+    nlohmann::json answer() const { return read("status/config.json"); }
+    /// Until it is so; a slow machine may take its time.
+    static bool in_time(const std::function<bool()>& so) {
+        for (const auto end = std::chrono::steady_clock::now() + 3min; std::chrono::steady_clock::now() < end;
+             std::this_thread::sleep_for(20ms))
+            if (so()) return true;
+        return false;
+    }
+    bool plays() const {
+        return in_time([this] { return read("status.json").is_object(); });
+    }
+    long steps() const { return read("status.json").at("fluid").at("steps").get<long>(); }
+
+    ScratchFolder folder;
+};
+
+TEST_F(ExhibitEndToEnd, TakesALiveSettingWithoutABreakInTheShow) {
+    drop("max_force_n = 3\n");
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    ASSERT_EQ(answer().at("result"), "applied");
+    const std::string before = answer().at("running_hash");
+    drop("max_force_n = 2\n");
+    EXPECT_TRUE(in_time([&] { return answer().at("running_hash") != before; })) << answer();
+    EXPECT_EQ(answer().at("result"), "applied");
+    EXPECT_TRUE(answer().at("errors").empty());
+    exhibit.send(SIGTERM);
+    const Ended ended = exhibit.wait();
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("settings were taken: max_force_n = 2"));
+    EXPECT_THAT(ended.out, HasSubstr("In the jet")) << "the same act all along";
+}
+
+TEST_F(ExhibitEndToEnd, PlaysTheOldSceneUntilTheNewOneIsReady) {
+    drop("scene = \"jet\"\n");
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    EXPECT_EQ(read("status.json").at("scene"), "In the jet");
+    drop("scene = \"stir\"\n");
+    EXPECT_TRUE(in_time([&] { return read("status.json").at("scene") != "In the jet"; }));
+    EXPECT_EQ(answer().at("result"), "applied");
+    EXPECT_GT(steps(), 0);
+    EXPECT_TRUE(in_time([&] { return read("status.json").at("haptics").at("force") != ""; }));
+    exhibit.send(SIGTERM);
+    EXPECT_EQ(exhibit.wait().status, 0);
+}
+
+TEST_F(ExhibitEndToEnd, NoBadFileChangesTheShow) {
+    drop("scene = \"jet\"\n");
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    const std::string running = answer().at("running_hash");
+    for (const char* bad : {"scene = \"nowhere\"\n", "scene = \"stir\nmax_force_n = 9\n", "", "\x01\x02\n",
+                            "presets = [\"fast\"]\n"}) {
+        const std::uint64_t refused = answer().at("refused");
+        drop(bad);
+        EXPECT_TRUE(in_time([&] { return answer().at("refused").get<std::uint64_t>() > refused; })) << bad;
+        EXPECT_EQ(answer().at("result"), "refused") << bad;
+        EXPECT_FALSE(answer().at("errors").empty()) << bad;
+        EXPECT_EQ(answer().at("running_hash"), running) << bad;
+    }
+    const long before = steps();
+    EXPECT_TRUE(in_time([&] { return steps() > before; })) << "the show went on";
+    EXPECT_EQ(read("status.json").at("scene"), "In the jet");
+    exhibit.send(SIGTERM);
+    const Ended ended = exhibit.wait();
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_THAT(ended.err, HasSubstr("exhibit.toml:1:9: scene")) << "each with its place";
+}
+
+TEST_F(ExhibitEndToEnd, StartsWithWhatWasGoodIfTheNewestKilledIt) {
+    drop("scene = \"jet\"\n");
+    {
+        Program exhibit(command());
+        ASSERT_TRUE(plays());
+        exhibit.send(SIGKILL);  // within its probation
+        exhibit.wait();
+    }
+    std::filesystem::remove(folder / "run/status.json");
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    EXPECT_EQ(answer().at("result"), "black-listed") << answer();
+    EXPECT_EQ(answer().at("source"), "factory") << "there is nothing that was ever good";
+    exhibit.send(SIGTERM);
+    EXPECT_EQ(exhibit.wait().status, 0);
+}
+
+TEST_F(ExhibitEndToEnd, GivesAPictureToWhoAsksForOne) {
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    folder.write("run/screenshot.request", "");
+    EXPECT_TRUE(in_time([&] { return std::filesystem::exists(folder / "run/screenshot.png"); }));
+    EXPECT_TRUE(in_time([&] { return !std::filesystem::exists(folder / "run/screenshot.request"); }));
+    EXPECT_THAT(read_all(folder / "run/screenshot.png"), HasSubstr("PNG"));
+    exhibit.send(SIGTERM);
+    EXPECT_EQ(exhibit.wait().status, 0);
+}
+
+TEST_F(ExhibitEndToEnd, TellsItsManagerOfItsLife) {
+    ManagerSocket manager(folder / "notify");
+    std::vector<std::string> arguments = command();
+    arguments.insert(arguments.begin(),
+                     {"env", "NOTIFY_SOCKET=" + (folder / "notify"), "WATCHDOG_USEC=2000000"});
+    Program exhibit(arguments);
+    std::vector<std::string> heard;
+    const auto has_heard = [&](const std::string& what) {
+        return in_time([&] {
+            for (std::string& message : manager.messages()) heard.push_back(std::move(message));
+            return std::any_of(heard.begin(), heard.end(), [&](const std::string& message) {
+                return message.find(what) != std::string::npos;
+            });
+        });
+    };
+    EXPECT_TRUE(has_heard("EXTEND_TIMEOUT_USEC=")) << "shaders take their time";
+    EXPECT_TRUE(has_heard("READY=1"));
+    EXPECT_TRUE(has_heard("WATCHDOG=1"));
+    EXPECT_TRUE(has_heard("STATUS="));
+    exhibit.send(SIGTERM);
+    EXPECT_EQ(exhibit.wait().status, 0);
+    EXPECT_TRUE(has_heard("STOPPING=1"));
+
+    std::filesystem::remove(folder / "run/status.json");
+    heard.clear();
+    Program next(arguments);
+    EXPECT_TRUE(has_heard("READY=1"));
+    EXPECT_TRUE(plays());
+    next.send(SIGKILL);
+    next.wait();
+    std::filesystem::remove(folder / "run/status.json");
+    heard.clear();
+    Program third(arguments);
+    EXPECT_TRUE(has_heard("READY=1"));
+    EXPECT_TRUE(plays());
+    third.send(SIGTERM);
+    const Ended ended = third.wait();
+    EXPECT_THAT(ended.err, HasSubstr("the run before this one ended by itself"));
+    EXPECT_EQ(read("status.json").at("exhibit").at("total").at("starts"), 3) << read("status.json");
+}
+
+TEST_F(ExhibitEndToEnd, IsClosedOutsideItsHoursOnlyIfItsClockIsTrusted) {
+    drop(
+        "[hours]\nmonday = \"closed\"\ntuesday = \"closed\"\nwednesday = \"closed\"\nthursday = \"closed\"\n"
+        "friday = \"closed\"\nsaturday = \"closed\"\nsunday = \"closed\"\n");
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    const auto state = [&] { return read("status.json").at("exhibit"); };
+    const bool trusted = in_time([&] { return state().contains("clock_synchronised"); }) &&
+                         state().at("clock_synchronised").get<bool>();
+    if (trusted)
+        EXPECT_TRUE(in_time([&] { return state().at("state") == "closed"; })) << state();
+    else
+        EXPECT_THAT(state().at("state"), AnyOf("attract", "in_use", "degraded")) << state();
+    exhibit.send(SIGTERM);
+    EXPECT_EQ(exhibit.wait().status, 0);
+}
+
+}  // namespace
+}  // namespace eddy
