@@ -84,7 +84,7 @@ struct CommandLine {
         auto* verb = app.add_subcommand(
             "run",
             "The exhibit: fluid, picture and force. Without options: the Novint Falcon if one is plugged\n"
-            "in, else an emulated hand that moves like a person's; and no screen (this version drives none)");
+            "in, else an emulated hand that moves like a person's; and the screen, if no desktop has it");
         verb->option_defaults()->take_last();  // script/run gives defaults that the user's options follow
         verb->add_option("--scene", run.scene, "shipped scene or file (print-config lists all keys)");
         add_set(*verb, run.set);
