@@ -56,6 +56,17 @@ TEST(Plant, PullsTheHandleAfterTheHand) {
     EXPECT_NEAR(plant.position_m().x, 0.03, 1e-5);
 }
 
+TEST(Plant, FollowsAHandOnlyWhileItIsHeld) {
+    Plant plant(std::make_unique<Path>([](double t) { return glm::dvec3(t < 0.1 ? 0.0 : 0.03, 0.0, 0.0); }),
+                {.hand = Hand::Arm});
+    plant.let_go();
+    plant.advance(900ms, glm::dvec3(0.0));
+    EXPECT_EQ(plant.position_m().x, 0.0);
+    plant.hold(Hand::Arm);
+    for (int ms = 900; ms <= 4000; ++ms) plant.advance(std::chrono::milliseconds(ms), glm::dvec3(0.0));
+    EXPECT_NEAR(plant.position_m().x, 0.03, 1e-5);
+}
+
 TEST(Plant, LosesEnergyWhenLeftAlone) {
     Plant plant(still(), {.hand = Hand::Arm});
     const PlantSettings s;
