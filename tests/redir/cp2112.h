@@ -32,6 +32,8 @@ class Cp2112 final : public LivePeer {
     void reset() override;
     std::string command(Instant now, std::string_view line) override;
     void report(Instant now, EventLog& log) override;
+    /// It says nothing of its own accord; only buttons are let go.
+    Instant tick() const override { return std::chrono::milliseconds(5); }
 
     /// What a voltmeter at the lines would show, one bit each.
     std::uint8_t levels() const;

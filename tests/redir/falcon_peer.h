@@ -41,6 +41,8 @@ class FalconPeer final : public LivePeer {
     void reset() override;
     std::string command(Instant now, std::string_view line) override;
     void report(Instant now, EventLog& log) override;
+    /// A packet waits that long before it is carried on. The times in the device itself are exact.
+    Instant tick() const override { return std::chrono::microseconds(200); }
 
     emulated::UsbDevice& device() { return device_; }
     emulated::EmulatedBoard& board() { return device_.falcon().board(); }

@@ -7,6 +7,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -19,9 +20,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// A packet waits that long in the device at most before it is sent. The device's own times are exact: what it says is
-// only carried late.
-constexpr Instant kBusyTick = 200us;
 constexpr Instant kIdleTick = 10ms;
 constexpr std::size_t kMostUnsent = 1 << 20;  // then the guest is not listened to until it has read
 constexpr std::size_t kLongestCommand = 1000;
@@ -71,7 +69,7 @@ void RedirServer::run(int commands_fd) {
             {{commands_, POLLIN, 0},
              {guest_ < 0 ? listener_ : -1, POLLIN, 0},
              {guest_, static_cast<short>((to_hear ? POLLIN : 0) | (to_send ? POLLOUT : 0)), 0}}};
-        const Instant wait = host_ && host_->busy() ? kBusyTick : kIdleTick;
+        const Instant wait = host_ && host_->busy() ? std::min(peer_.tick(), kIdleTick) : kIdleTick;
         const timespec at_most{0, static_cast<long>(wait.count())};
         ppoll(files.data(), files.size(), &at_most, nullptr);
 

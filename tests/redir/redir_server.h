@@ -17,6 +17,8 @@ class LivePeer : public UsbPeer {
     virtual std::string command(Instant now, std::string_view line) = 0;
     /// Says what there is to say, now and then.
     virtual void report(Instant now, EventLog& log) = 0;
+    /// While a guest waits for it, its time goes on so often at least. What is asked of it is heard at once in any case.
+    virtual Instant tick() const = 0;
 };
 
 /// Serves one device on a unix socket, to one guest after the other, in real time. Commands of its own, one a line on
