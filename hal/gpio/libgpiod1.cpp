@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "hal/gpio/chip_files.h"
 #include "hal/gpio/real_gpio.h"
