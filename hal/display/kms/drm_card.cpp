@@ -8,6 +8,7 @@
 #include <xf86drm.h>
 
 #include <cerrno>
+#include <ctime>
 #include <set>
 
 namespace eddy::kms {

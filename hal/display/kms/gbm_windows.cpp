@@ -3,6 +3,7 @@
 #include <drm_fourcc.h>
 #include <gbm.h>
 
+#include <algorithm>
 #include <map>
 
 #include "hal/display/kms/drm_card.h"
