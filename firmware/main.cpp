@@ -19,6 +19,13 @@ constexpr Word<ClockChoice> kClockChoices[] = {
     {ClockChoice::Stepped, "stepped", "virtual time"},
 };
 
+constexpr auto kLampCodes = [] {
+    std::array<Word<LampCode>, kLampRows.size()> words{};
+    for (std::size_t i = 0; i < words.size(); ++i)
+        words[i] = {kLampRows[i].code, kLampRows[i].word, kLampRows[i].meaning};
+    return words;
+}();
+
 struct CommandLine {
     CLI::App app{"Eddy lets people feel a fluid: 3D smoke on the screen, its force in the hand."};
     RunOptions run;
@@ -30,6 +37,7 @@ struct CommandLine {
     FalconOptions falcon;
     HapticsOptions haptics;
     ScreenOptions screen;
+    PanelOptions panel;
     ReplayOptions replay;
     RtSelftestOptions rt_selftest;
     CLI::App* calibrate = nullptr;
@@ -57,6 +65,7 @@ struct CommandLine {
         add_falcon();
         add_haptics();
         add_screen();
+        add_panel();
         add_replay();
         add_rt_selftest();
         auto* check = app.add_subcommand(
@@ -172,6 +181,22 @@ struct CommandLine {
                 return text.empty() || kms::parse_mode(text) ? std::string()
                                                              : "write it like 1920x1080@60 or 1920x1080";
             });
+    }
+
+    void add_panel() {
+        auto* verb = app.add_subcommand("panel",
+                                        "Button, stop input and lamps: lists the machine's GPIO lines, says "
+                                        "which are the panel's, lights\n"
+                                        "its lamps one after the other, and tells what is pressed");
+        verb->option_defaults()->take_last();
+        auto* code = verb->add_option("--code", panel.code, "light the lamps as for this code instead");
+        choose(*code, std::span<const Word<LampCode>>(kLampCodes));
+        verb->add_option("--seconds", panel.seconds, "how long to look")
+            ->check(number_from(0.1, 86400.0))
+            ->capture_default_str();
+        verb->add_flag("--codes", panel.codes, "print what each code means and looks like, and stop")
+            ->excludes(code);
+        verb->footer("A running exhibit has the lines to itself: systemctl stop eddy first.");
     }
 
     void add_replay() {
@@ -387,6 +412,7 @@ struct CommandLine {
         if (app.got_subcommand("falcon")) return act_on_falcon();
         if (app.got_subcommand("screen")) return diagnose_screen(screen);
         if (app.got_subcommand("haptics")) return study_haptics(haptics);
+        if (app.got_subcommand("panel")) return diagnose_panel(panel);
         if (app.got_subcommand("replay")) return eddy::replay(replay);
         if (app.got_subcommand("rt-selftest")) return eddy::rt_selftest(rt_selftest);
         if (app.got_subcommand("check-config")) return act_on_check();

@@ -35,38 +35,37 @@ struct LampRow {
     std::string_view three;  ///< of the three lamps
     std::string_view one;    ///< where there is one only
     std::string_view ring;   ///< of the Falcon
-    std::string_view looks;  ///< the three lamps in words
 };
 inline constexpr Instant kLampStep = std::chrono::milliseconds(250);
 
 // clang-format off
 inline constexpr std::array<LampRow, 13> kLampRows{{
     {LampCode::Starting, "starting", "the exhibit is starting",
-     "A", "**..", "Y", "amber"},
+     "A", "**..", "Y"},
     {LampCode::Show, "show", "the show runs",
-     "G", "*", "G", "green"},
+     "G", "*", "G"},
     {LampCode::Attract, "attract", "the show runs, nobody is there",
-     "GGGGGGGG........", "********........", "GGGGGGGGCCCCCCCC", "green, two seconds on, two off"},
+     "GGGGGGGG........", "********........", "GGGGGGGGCCCCCCCC"},
     {LampCode::HandOn, "hand_on", "somebody holds the handle",
-     "GGGGGGG.", "*******.", "C", "green with a short gap every two seconds"},
+     "GGGGGGG.", "*******.", "C"},
     {LampCode::Closed, "closed", "closed: outside its opening hours",
-     "G...............", "*...............", "B...............", "a short green flash every four seconds"},
+     "G...............", "*...............", "B..............."},
     {LampCode::Degraded, "degraded", "it runs, but not with all it should have: no Falcon, late ticks, fallback settings",
-     "AA..", "*.*.*.*.......", "YY..", "amber, once a second"},
+     "AA..", "*.*.*.*.......", "YY.."},
     {LampCode::Fault, "fault", "a fault that needs somebody: call the technician",
-     "R.", "*.", "R.", "red, twice a second"},
+     "R.", "*.", "R."},
     {LampCode::Stopped, "stopped", "stopped: no force until a click on the button",
-     "R", "*.*.*.*.*.......", "RRRRRRR.", "red"},
+     "R", "*.*.*.*.*.......", "RRRRRRR."},
     {LampCode::Guide, "guide", "the guide pages are shown",
-     "GGGGAAAA", "****....", "BBBBWWWW", "green and amber in turn, a second each"},
+     "GGGGAAAA", "****....", "BBBBWWWW"},
     {LampCode::ShuttingDown, "shutting_down", "it ends and powers down: wait until all is dark",
-     "****....", "*...", "W...", "all three, a second on, a second off"},
+     "****....", "*...", "W..."},
     {LampCode::Accepted, "accepted", "a new configuration was accepted",
-     "G.G.....", "*.*.....", "G.G.....", "green, two blinks"},
+     "G.G.....", "*.*.....", "G.G....."},
     {LampCode::Rejected, "rejected", "a new configuration was refused: the old one runs on",
-     "A.A.A.....", "*.*.*.....", "Y.Y.Y.....", "amber, three blinks"},
+     "A.A.A.....", "*.*.*.....", "Y.Y.Y....."},
     {LampCode::LetGo, "let_go", "the button has been held long enough: let go, and it shuts down",
-     "*", ".", "W", "all three"},
+     "*", ".", "W"},
 }};
 // clang-format on
 

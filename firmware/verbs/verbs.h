@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/exhibit.h"
+#include "firmware/exhibit/lamps.h"
 #include "firmware/input_error.h"
 
 namespace eddy {
@@ -139,6 +140,14 @@ struct ScreenOptions {
 };
 /// 1 too if no screen can be driven now.
 int diagnose_screen(const ScreenOptions& options);
+
+struct PanelOptions {
+    std::optional<LampCode> code;  ///< show it, in place of one lamp after the other
+    double seconds = 10.0;         ///< how long to look
+    bool codes = false;            ///< print what each means, and stop
+};
+/// 1 too if a line that is configured cannot be had.
+int diagnose_panel(const PanelOptions& options);
 
 struct ReplayOptions {
     std::string flight;  ///< file

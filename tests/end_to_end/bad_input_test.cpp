@@ -156,6 +156,8 @@ TEST_F(BadInput, OfAHandThatCannotBeIsSaidSo) {
 TEST_F(BadInput, AboutTheFalconIsNamed) {
     expect_refused({"falcon", "--firmware", scene}, {"falcon.firmware", scene, "AA 08"});
     expect_refused({"falcon", "--firmware", missing + "/image.bin"}, {"falcon.firmware", missing});
+    expect_refused({"panel", "--code", "blink"}, {"--code", "blink", "degraded"});
+    expect_refused({"panel", "--code", "show", "--codes"}, {"--codes", "--code"});
     expect_refused({"falcon", "--seconds", "3", "calibrate"}, {"--seconds", "calibrate"});
 }
 

@@ -26,6 +26,7 @@ const std::vector<Verb> kVerbs{
     {"falcon", {"--firmware", "--serial", "--seconds", "calibrate"}},
     {"haptics", {"--scene", "--grid", "--quick", "--out"}},
     {"screen", {"--connector", "--mode"}},
+    {"panel", {"--code", "--codes", "--seconds", "shutting_down"}},
     {"replay", {"FLIGHT", "--plot", ".flight"}},
     {"rt-selftest", {"--seconds", "--haptics", "--plot", "1.5 ms"}},
     {"check-config", {"FILE"}},
