@@ -67,7 +67,9 @@ class KernelBench final : public Bench {
     void set_high(const std::string& chip, unsigned line, bool high) override {
         kernel_.set_high(called(chip), line, high);
     }
-    bool is_high(const std::string& chip, unsigned line) override { return kernel_.is_high(called(chip), line); }
+    bool is_high(const std::string& chip, unsigned line) override {
+        return kernel_.is_high(called(chip), line);
+    }
     void unplug_bridge() override { kernel_.unplug(bridge_); }
     void plug_in_bridge() override { kernel_.plug_in(bridge_, folder_.write("gpiochip7", "")); }
 
@@ -114,8 +116,9 @@ class GpioContract : public testing::TestWithParam<World> {
     std::unique_ptr<Bench> bench;
 };
 
-#define NEEDS_HANDS() \
-    if (!bench->has_hands()) GTEST_SKIP() << "skipped: nobody moves the inputs of a real chip, or pulls its plug"
+#define NEEDS_HANDS()        \
+    if (!bench->has_hands()) \
+    GTEST_SKIP() << "skipped: nobody moves the inputs of a real chip, or pulls its plug"
 
 std::string name_of(const testing::TestParamInfo<World>& world) {
     switch (world.param) {
@@ -326,7 +329,8 @@ TEST(Libgpiod, LeavesNoFileOpen) {
     KernelBench bench;
     const auto open_files = [] {
         std::size_t count = 0;
-        for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator("/proc/self/fd")) ++count;
+        for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator("/proc/self/fd"))
+            ++count;
         return count;
     };
     const std::size_t before = open_files();

@@ -54,13 +54,15 @@ TEST(FindLine, ByTheChipsLabelNameOrPathAndOffset) {
 }
 
 TEST(FindLine, SaysTheNearestNames) {
-    EXPECT_THAT(trouble("GPIO7"), StrEq("there is no GPIO line called 'GPIO7'; nearest: 'GPIO17', 'GPIO27', '-', "
-                                        "'a:1'; `eddy panel` lists all"));
+    EXPECT_THAT(trouble("GPIO7"),
+                StrEq("there is no GPIO line called 'GPIO7'; nearest: 'GPIO17', 'GPIO27', '-', "
+                      "'a:1'; `eddy panel` lists all"));
     EXPECT_THAT(trouble("GPIO7", {machine()[1]}), HasSubstr("no line here has a name, write CHIP:OFFSET"));
 }
 
 TEST(FindLine, SaysTheNearestChips) {
-    EXPECT_THAT(trouble("cp2111_gpio:0"), HasSubstr("there is no GPIO chip 'cp2111_gpio'; there are 'cp2112_gpio'"));
+    EXPECT_THAT(trouble("cp2111_gpio:0"),
+                HasSubstr("there is no GPIO chip 'cp2111_gpio'; there are 'cp2112_gpio'"));
 }
 
 TEST(FindLine, SaysHowManyLinesAChipHas) {

@@ -192,6 +192,27 @@ TEST(Falcon, ClearsTheHomingBitWhenToldTo) {
     EXPECT_FALSE(rig.board().last_command().homing);
 }
 
+TEST(Falcon, ItsRingShowsWhatItIsToldWhileItIsReady) {
+    Rig rig(unhomed(), {}, homing_push(1.0));
+    rig.run(500);
+    rig.driver->show({.green = true, .blue = true});
+    rig.run(100);
+    EXPECT_EQ(rig.board().last_command(), (Command{.homing = true, .red = true})) << "it wants to be homed";
+    ASSERT_GE(rig.until(HapticState::Ready, 5000), 0);
+    rig.run(10);
+    EXPECT_EQ(rig.board().last_command(), (Command{.homing = true, .green = true, .blue = true}));
+    rig.driver->show({.red = true, .green = true, .blue = true});
+    rig.run(10);
+    EXPECT_EQ(rig.board().last_command(),
+              (Command{.homing = true, .red = true, .green = true, .blue = true}));
+    rig.driver->show({});
+    rig.run(10);
+    EXPECT_EQ(rig.board().last_command(), Command{.homing = true});
+    rig.board().faults.homing_lost = true;
+    rig.run(10);
+    EXPECT_TRUE(rig.board().last_command().red);
+}
+
 TEST(Falcon, KeepsAtMostOneCommandUnanswered) {
     Rig rig({.turnaround = std::chrono::milliseconds(4)});
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
