@@ -145,6 +145,48 @@ TEST_F(ExhibitFolder, FoldersMustBeAbsolute) {
                 ElementsAre(file + ":1:13: state_dir: \"state\" must start with a slash"));
 }
 
+TEST_F(ExhibitFolder, LinesOfThePanelAreNamedInATableOfTheirOwn) {
+    const std::string file = write("exhibit.toml",
+                                   "[gpio]\nbutton = \"GPIO17\"\nstop = \"cp2112_gpio:1\"\n"
+                                   "lamp_red = \"GPIO22\"\nlamps_active_low = true\n");
+    const GpioConfig gpio = load_exhibit_file(file).exhibit.gpio;
+    EXPECT_EQ(gpio.button, "GPIO17");
+    EXPECT_EQ(gpio.stop, "cp2112_gpio:1");
+    EXPECT_EQ(gpio.lamp_red, "GPIO22");
+    EXPECT_EQ(gpio.lamp_green, "");
+    EXPECT_TRUE(gpio.lamps_active_low);
+    EXPECT_TRUE(gpio.button_active_low);
+    EXPECT_FALSE(gpio.stop_active_low);
+}
+
+TEST_F(ExhibitFolder, ALineOfThePanelHasOneUse) {
+    const std::string file = write("exhibit.toml", "[gpio]\nbutton = \"GPIO17\"\nlamp_red = \"GPIO17\"\n");
+    EXPECT_THAT(complaints([&] { load_exhibit_file(file); }),
+                ElementsAre(file + ":3:12: gpio.lamp_red: line \"GPIO17\" is that of gpio.button already"));
+}
+
+TEST_F(ExhibitFolder, AStopInputNeedsAButtonToComeBackBy) {
+    const std::string file = write("exhibit.toml", "[gpio]\nstop = \"GPIO17\"\n");
+    EXPECT_THAT(
+        complaints([&] { load_exhibit_file(file); }),
+        ElementsAre(AllOf(StartsWith(file + ":2:8: gpio.stop:"), HasSubstr("gpio.button must name one"))));
+}
+
+TEST_F(ExhibitFolder, ADropInCannotChangeTheStopInput) {
+    write("exhibit.toml", "[gpio]\nbutton = \"GPIO17\"\nstop = \"GPIO27\"\n");
+    for (const std::string line : {"stop = \"GPIO5\"", "stop = \"\"", "stop_active_low = true",
+                                   "stop = \"GPIO27\"", "lamp_red = \"GPIO5\""}) {
+        const std::string drop_in = write("conf.d/10-site.toml", "[gpio]\n" + line + "\n");
+        const auto found = complaints([&] { load_exhibit(folder_); });
+        const bool may = line == "stop = \"GPIO27\"" || line.starts_with("lamp");
+        ASSERT_EQ(found.size(), may ? 0U : 1U) << line;
+        if (!may) {
+            EXPECT_THAT(found.front(),
+                        AllOf(StartsWith(drop_in + ":2:"), HasSubstr("no file in conf.d can change")));
+        }
+    }
+}
+
 TEST_F(ExhibitFolder, FalconIsSetInATableOfItsOwn) {
     const std::string file =
         write("exhibit.toml", "[falcon]\nfirmware = \"/etc/eddy/falcon.bin\"\nserial = \"FTPNM0FB\"\n");
