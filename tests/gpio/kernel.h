@@ -20,9 +20,9 @@ struct Line {
 struct Chip {
     std::string label;
     std::deque<Line> lines;
-    bool edges = true;  ///< it can interrupt
-    bool biases = true;  ///< the kernel knows of pull-ups, as from 5.5 on
-    int refusal = 0;    ///< errno of every open()
+    bool edges = true;             ///< it can interrupt
+    bool biases = true;            ///< the kernel knows of pull-ups, as from 5.5 on
+    int refusal = 0;               ///< errno of every open()
     std::filesystem::path file{};  ///< while plugged in: stands for its device file
     unsigned pull_ups = 0;         ///< requests that asked for one
 };
@@ -36,8 +36,8 @@ class Kernel {
     static Kernel& instance();
 
     /// A chip whose device file is `file`, which exists.
-    Chip& add(const std::filesystem::path& file, const std::string& label, const std::vector<std::string>& names,
-              bool edges = true);
+    Chip& add(const std::filesystem::path& file, const std::string& label,
+              const std::vector<std::string>& names, bool edges = true);
     /// The file is removed, what is open of it hangs up.
     void unplug(Chip& chip);
     void plug_in(Chip& chip, const std::filesystem::path& file);
