@@ -44,7 +44,7 @@ std::string why_not_opened(const std::filesystem::path& file, int error) {
     const group* owner = known ? getgrgid(status.st_gid) : nullptr;
     if (known && status.st_gid != 0 && owner && (status.st_mode & S_IRGRP) != 0)
         return fmt::format("this user may not open it: usermod -aG {} USER, and log in anew", owner->gr_name);
-    return "this user may not open it, nor any group: install the udev rule 61-eddy-gpio.rules";
+    return "this user may not open it, nor any group: install the udev rule 60-eddy.rules";
 }
 
 }  // namespace eddy
