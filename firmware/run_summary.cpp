@@ -34,7 +34,7 @@ void print_summary(const RunLength& length, const Act& act, const Graphics& grap
                fluid.cells.y, fluid.cells.z, fluid.cell_m * 1e3);
     fmt::print("renderer    {}, {}\n", graphics.gpu.capabilities().renderer, graphics.display->describe());
     fmt::print("hand        {}\n", hand.name());
-    fmt::print("fluid       {} steps in {:.1f} s of {} clock: {:.1f} steps/s\n", f.steps, length.clock_s,
+    fmt::print("fluid       {} steps in {:.1f} s of {} clock: {:.1f} steps/s\n", f.steps, length.show_s,
                length.clock, static_cast<double>(f.steps) / length.wall_s);
     fmt::print("ms a stage  {} (wall, median of one step in {})\n", print_stages(), kMeasureEvery);
     fmt::print("divergence  {:.3g} 1/s before the projection, {:.3g} 1/s after it ({:.0f}-fold)\n",
@@ -43,8 +43,8 @@ void print_summary(const RunLength& length, const Act& act, const Graphics& grap
     fmt::print("force       {:.3g} to {:.3g} N from the fluid after gain, at most {:.3g} N sent\n",
                f.least_force_n, f.most_force_n, hand.sent_most_n());
     fmt::print("haptic loop {} ticks in {:.1f} s: {:.0f} Hz; {} late, {} left out, worst {:.2f} ms\n",
-               loop.ticks, length.clock_s,
-               length.clock_s > 0.0 ? static_cast<double>(loop.ticks) / length.clock_s : 0.0, loop.late,
+               loop.ticks, length.hand_s,
+               length.hand_s > 0.0 ? static_cast<double>(loop.ticks) / length.hand_s : 0.0, loop.late,
                loop.missed, Seconds(loop.worst_late).count() * 1e3);
     fmt::print("gate        {}; clamped {}, slewed {}, not finite {}\n", to_string(loop.reason),
                loop.gate.clamped, loop.gate.slewed, loop.gate.non_finite);

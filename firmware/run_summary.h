@@ -7,10 +7,10 @@
 
 namespace eddy {
 
-/// How long a run was: by the clock that it ran on, and by the machine's.
+/// How long a run was: the show and the hand's loop by the clock that they ran on, and the show by the machine's.
 struct RunLength {
     const char* clock = "real";
-    double clock_s = 0.0, wall_s = 0.0;
+    double show_s = 0.0, hand_s = 0.0, wall_s = 0.0;
 };
 
 /// What status.json says of these; what concerns the box on the floor is left out.

@@ -580,7 +580,8 @@ int ExhibitRun::finish() {
         report(now);
         write_report(now);
         if (const auto complaint = hand_->complaint()) say(Event::Note, *complaint);
-        print_summary({"real", Seconds(now - hand_began_).count(), Seconds(now - show_began_).count()},
+        const double show_s = Seconds(now - show_began_).count();
+        print_summary({"real", show_s, Seconds(now - hand_began_).count(), show_s},
                       front_->act(), front_->graphics(), *hand_, recording_.recorder());
     }
     if (usage_) usage_->write();
