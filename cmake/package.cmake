@@ -2,6 +2,7 @@
 # program, what the system needs to know of it (systemd/), its settings and its notices, and starts the exhibit (package/).
 # It takes the program as it was built last: `--target eddy` first. (By itself it would build every test.)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+set(CMAKE_SKIP_PACKAGE_ALL_DEPENDENCY ON)
 set(doc share/doc/eddy)
 
 install(TARGETS eddy RUNTIME DESTINATION bin)
