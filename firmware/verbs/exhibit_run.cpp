@@ -581,8 +581,8 @@ int ExhibitRun::finish() {
         write_report(now);
         if (const auto complaint = hand_->complaint()) say(Event::Note, *complaint);
         const double show_s = Seconds(now - show_began_).count();
-        print_summary({"real", show_s, Seconds(now - hand_began_).count(), show_s},
-                      front_->act(), front_->graphics(), *hand_, recording_.recorder());
+        print_summary({"real", show_s, Seconds(now - hand_began_).count(), show_s}, front_->act(),
+                      front_->graphics(), *hand_, recording_.recorder());
     }
     if (usage_) usage_->write();
     journal_.flush();

@@ -97,8 +97,8 @@ int run_stepped(const RunOptions& options) {
         status.uptime_s = Seconds(now).count();
         write_status(exhibit.run_dir / "status.json", status);
     }
-    print_summary({"stepped", Seconds(now).count(), Seconds(now).count(), Seconds(wall.now()).count()}, act, *graphics, hand,
-                  recording.recorder());
+    print_summary({"stepped", Seconds(now).count(), Seconds(now).count(), Seconds(wall.now()).count()}, act,
+                  *graphics, hand, recording.recorder());
     return recording.failed() ? 1 : 0;
 }
 
