@@ -67,7 +67,7 @@ void HapticLoop::run(Clock& clock, const std::atomic<bool>& stop) {
 }
 
 /// Runs one tick for the last grid point that has come, `due` if all goes well, and returns the grid point
-/// after it.
+/// for the next: the one after it, or a later one if the tick took long.
 Instant HapticLoop::pace(Clock& clock, Instant due) {
     clock.sleep_until(due);
     const Instant now = clock.now();
@@ -77,7 +77,11 @@ Instant HapticLoop::pace(Clock& clock, Instant due) {
     report_.missed += static_cast<std::uint64_t>(passed);
     report_.worst_late = std::max(report_.worst_late, late);
     tick(now);
-    return due + (passed + 1) * kTick;
+    const Instant next = due + (passed + 1) * kTick;
+    const Instant took = clock.now() - now;
+    const auto given = std::max<std::int64_t>((now + 2 * took - next + kTick - Instant(1)) / kTick, 0);
+    report_.missed += static_cast<std::uint64_t>(given);
+    return next + given * kTick;
 }
 
 }  // namespace eddy

@@ -31,7 +31,8 @@ class HapticLoop {
 
     /// A tick every kTick on a fixed grid until `stop`; then kClosingTicks more with the gate shut, and
     /// returns. A tick that comes too late runs once; those whose time passed meanwhile are left out and
-    /// counted, never made up for in a burst.
+    /// counted, never made up for in a burst. After a tick the core is left to others for at least as long as the tick took: on
+    /// a machine too slow for 1 kHz a thread of real-time priority would leave nothing to the fluid, nor to whoever logs in.
     void run(Clock& clock, const std::atomic<bool>& stop);
 
   private:

@@ -70,6 +70,9 @@ class SleepyClock final : public Clock {
     Instant stop_at{0};
     std::atomic<bool> stop{false};
 
+    /// Something takes that long.
+    void spend(Instant time) { now_ += time; }
+
     Instant now() const override { return now_; }
     void sleep_until(Instant t) override {
         now_ = std::max(now_, t);
@@ -207,6 +210,23 @@ TEST(HapticLoop, KeepsToAFixedGridAndSkipsWhatItMissed) {
     EXPECT_EQ(report.late, 2U);
     EXPECT_EQ(report.missed, 3U);
     EXPECT_EQ(report.worst_late, Instant(std::chrono::microseconds(3200)));
+}
+
+TEST(HapticLoop, LeavesTheCoreToOthersForAsLongAsATickTook) {
+    Rig rig;
+    SleepyClock clock;
+    clock.stop_at = milliseconds(100);
+    rig.device.path = [&](Seconds) {
+        clock.spend(std::chrono::microseconds(1700));
+        return glm::dvec3(0.0);
+    };
+    rig.loop.run(clock, clock.stop);
+    const std::vector<TickRecord> ticks = rig.records();
+    for (std::size_t i = 0; i < ticks.size(); ++i)
+        EXPECT_EQ(ticks[i].t, Instant(milliseconds(4)) * static_cast<int>(i));
+    const LoopReport& report = rig.exchange.report.newest();
+    EXPECT_EQ(report.missed, 3 * (report.ticks - 1));
+    EXPECT_EQ(report.late, 0U);
 }
 
 TEST(HapticLoop, SendsZeroForTenTicksAfterStop) {
