@@ -18,7 +18,7 @@ AGENT = """[Unit]
 DefaultDependencies=no
 StartLimitIntervalSec=0
 [Service]
-ExecStart=/bin/sh -c 'for port in /dev/vport*p1; do exec /bin/sh <>$port >&0 2>&0; done'
+ExecStart=/bin/sh -c 'until [ -c /dev/vport*p1 ]; do sleep 1; done; exec /bin/sh <>$(echo /dev/vport*p1) >&0 2>&0'
 Restart=always
 RestartSec=1
 """
@@ -93,7 +93,7 @@ class Machine:
                     "-drive", f"file={disk.path},if=virtio,cache=writethrough",
                     "-device", "virtio-gpu-pci,xres=1280,yres=720", "-vga", "none", "-display", "none",
                     "-device", "i6300esb", "-watchdog-action", "reset",
-                    "-nic", "none", "-monitor", "none", "-serial", f"file:{self.serial_log}",
+                    "-nodefaults", "-nic", "none", "-serial", f"file:{self.serial_log}",
                     "-qmp", f"unix:{self.qmp_socket},server=on,wait=off",
                     "-device", "qemu-xhci,id=usb", "-device", "virtio-serial",
                     "-chardev", f"socket,id=agent,path={self.agent_socket},server=on,wait=off",
