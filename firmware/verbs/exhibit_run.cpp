@@ -68,6 +68,7 @@ ExhibitRun::ExhibitRun(const RunOptions& options)
       journal_(make_log_sink()),
       notify_(ServiceNotify::from_environment()),
       service_(notify_, watchdog_period()) {
+    if (notify_.listened_to()) outlive_console();
     prepare_folders(options);
     state_dir_ = state_folder(options);
 }

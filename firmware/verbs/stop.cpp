@@ -15,6 +15,15 @@ void stop_on_signals() {
     action.sa_handler = [](int) { g_stop = true; };
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGHUP, &action, nullptr);
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, nullptr);
+}
+
+void outlive_console() {
+    struct sigaction action {};
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGHUP, &action, nullptr);
 }
 
 bool asked_to_stop() {

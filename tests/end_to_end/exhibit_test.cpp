@@ -139,6 +139,15 @@ TEST_F(ExhibitEndToEnd, GivesAPictureToWhoAsksForOne) {
     EXPECT_EQ(exhibit.wait().status, 0);
 }
 
+TEST_F(ExhibitEndToEnd, EndsWellWithTheTerminalItWasStartedFrom) {
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    exhibit.send(SIGHUP);
+    const Ended ended = exhibit.wait();
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_THAT(ended.out, HasSubstr("haptic loop"));
+}
+
 TEST_F(ExhibitEndToEnd, TellsItsManagerOfItsLife) {
     ManagerSocket manager(folder / "notify");
     std::vector<std::string> arguments = command();
@@ -158,6 +167,11 @@ TEST_F(ExhibitEndToEnd, TellsItsManagerOfItsLife) {
     EXPECT_TRUE(has_heard("READY=1"));
     EXPECT_TRUE(has_heard("WATCHDOG=1"));
     EXPECT_TRUE(has_heard("STATUS="));
+    EXPECT_TRUE(plays());
+    exhibit.send(SIGHUP);
+    const long before = steps();
+    EXPECT_TRUE(in_time([&] { return steps() > before + 10; }))
+        << "a console that is hung up is no reason to end";
     exhibit.send(SIGTERM);
     EXPECT_EQ(exhibit.wait().status, 0);
     EXPECT_TRUE(has_heard("STOPPING=1"));
