@@ -77,7 +77,8 @@ Instant HapticLoop::pace(Clock& clock, Instant due) {
     report_.missed += static_cast<std::uint64_t>(passed);
     report_.worst_late = std::max(report_.worst_late, late);
     tick(now);
-    const Instant next = due + (passed + 1) * kTick;
+    const Instant step = device_.state() == HapticState::Absent ? kAbsentTick : kTick;
+    const Instant next = due + passed * kTick + step;
     const Instant took = clock.now() - now;
     const auto given = std::max<std::int64_t>((now + 2 * took - next + kTick - Instant(1)) / kTick, 0);
     report_.missed += static_cast<std::uint64_t>(given);

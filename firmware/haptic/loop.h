@@ -11,6 +11,8 @@
 namespace eddy {
 
 inline constexpr Instant kTick = std::chrono::milliseconds(1);
+/// Between two looks whether there is a device by now: a thousand a second are work for nothing.
+inline constexpr Instant kAbsentTick = 10 * kTick;
 inline constexpr Instant kLate = kTick / 2;
 /// Zero commands sent after stop: one would do, if no packet were ever lost.
 inline constexpr int kClosingTicks = 10;
@@ -29,7 +31,7 @@ class HapticLoop {
     /// One tick. `now` never goes back. For callers that keep time themselves (replay, tests).
     void tick(Instant now);
 
-    /// A tick every kTick on a fixed grid until `stop`; then kClosingTicks more with the gate shut, and
+    /// A tick every kTick (without a device every kAbsentTick) on a fixed grid until `stop`; then kClosingTicks more with the gate shut, and
     /// returns. A tick that comes too late runs once; those whose time passed meanwhile are left out and
     /// counted, never made up for in a burst. After a tick the core is left to others for at least as long as the tick took: on
     /// a machine too slow for 1 kHz a thread of real-time priority would leave nothing to the fluid, nor to whoever logs in.

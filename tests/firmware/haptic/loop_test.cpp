@@ -229,6 +229,19 @@ TEST(HapticLoop, LeavesTheCoreToOthersForAsLongAsATickTook) {
     EXPECT_EQ(report.late, 0U);
 }
 
+TEST(HapticLoop, LooksAHundredTimesASecondForADeviceThatIsNotThere) {
+    Rig rig;
+    SleepyClock clock;
+    clock.stop_at = milliseconds(100);
+    rig.device.is = HapticState::Absent;
+    rig.device.path = [](Seconds) { return glm::dvec3(0.0); };
+    rig.loop.run(clock, clock.stop);
+    const std::vector<TickRecord> ticks = rig.records();
+    ASSERT_EQ(ticks.size(), 11U + kClosingTicks);
+    for (std::size_t i = 0; i < ticks.size(); ++i) EXPECT_EQ(ticks[i].t, static_cast<int>(i) * kAbsentTick);
+    EXPECT_EQ(rig.exchange.report.newest().missed, 0U);
+}
+
 TEST(HapticLoop, SendsZeroForTenTicksAfterStop) {
     Rig rig;
     SleepyClock clock;
