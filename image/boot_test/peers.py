@@ -18,7 +18,10 @@ class Peer:
                                         stdin=subprocess.PIPE, text=True)
         until(f"{name} to listen", 10, self.socket.exists, 0.1)
 
-    def close(self):
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
         self.process.stdin.close()
         self.process.terminate()
         self.process.wait()
