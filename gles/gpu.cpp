@@ -66,7 +66,18 @@ void Gpu::free_idle_textures() {
     });
 }
 
+void Gpu::pause() {
+    if (!between_ || pauses_) return;
+    struct Within {
+        explicit Within(bool& flag) : flag_(flag) { flag_ = true; }
+        ~Within() { flag_ = false; }
+        bool& flag_;
+    } within(pauses_);
+    between_();
+}
+
 Gpu::Stage::Stage(Gpu& gpu, std::string_view name) : gpu_(gpu), outer_(gpu.stage_) {
+    gpu_.pause();
     gpu_.stage_ = name;
     if (gpu_.watcher_) gpu_.watcher_(name, true);
 }

@@ -64,6 +64,12 @@ class Gpu {
     using StageWatcher = std::function<void(std::string_view stage, bool begins)>;
     void watch_stages(StageWatcher watcher) { watcher_ = std::move(watcher); }
 
+    /// `between` is called in the middle of long work, often: before a pass is compiled, before it draws for the first time
+    /// (drivers put off a part of compiling until then), and at the begin of each stage. It may draw with passes of its own, of which
+    /// it does not hear, and may throw if the work is to be given up. Empty: nobody is called.
+    void on_pause(std::function<void()> between) { between_ = std::move(between); }
+    void pause();
+
     /// Records every pass from now on into `records` (null: stop).
     void record(std::vector<PassRecord>* records) { records_ = records; }
     void note(PassRecord record);
@@ -78,6 +84,8 @@ class Gpu {
     std::map<std::vector<std::uint64_t>, unsigned> framebuffers_;  // by the serials of their textures
     std::string stage_;
     StageWatcher watcher_;
+    std::function<void()> between_;
+    bool pauses_ = false;
     std::vector<PassRecord>* records_ = nullptr;
 };
 

@@ -3,6 +3,7 @@
 #include <GLES3/gl3.h>
 
 #include "gles/fluid/fluid.h"
+#include "gles/pass.h"
 #include "tests/gles/gl_fixture.h"
 
 namespace eddy::gles {
@@ -51,6 +52,47 @@ TEST_F(GpuTextures, FreedInTheMiddleOfARunChangeNothingInIt) {
         EXPECT_EQ(forces[0], forces[1]) << "step " << i;
     }
     EXPECT_EQ(one->velocity(), other->velocity());
+}
+
+/// A pass that no other test draws with: `n` tells its program from others.
+Pass coloured(Gpu& gpu, int n) {
+    return {gpu, "coloured", "gles/render/text.frag", AtlasLayout{glm::ivec3(8 + n, 8, 1), 1}};
+}
+
+class GpuPauses : public GlTest {
+  protected:
+    ~GpuPauses() override { gpu.on_pause({}); }
+};
+
+TEST_F(GpuPauses, ComeBeforeEachProgramAndEachFirstDrawButNotInTheirOwnWork) {
+    int pauses = 0;
+    gpu.on_pause([&] {
+        ++pauses;
+        coloured(gpu, pauses);
+    });
+    const std::size_t linked = gpu.programs().linked();
+    Pass pass = coloured(gpu, 100);
+    EXPECT_EQ(pauses, 1);
+    EXPECT_EQ(gpu.programs().linked(), linked + 2);
+    const TexturePool::Lease page = gpu.textures().lease({8, 8}, Format::RGBA8);
+    const TexturePool::Lease picture = gpu.textures().lease({108, 8}, Format::RGBA8);
+    for (int n = 0; n < 3; ++n) pass.draw({{"page", &*page}}, {{"corner", glm::vec2(0.0f)}}, {&*picture});
+    EXPECT_EQ(pauses, 2) << "drivers compile at the first draw, too";
+    { const Gpu::Stage stage(gpu, "a stage"); }
+    EXPECT_EQ(pauses, 3);
+    gpu.on_pause({});
+    { const Gpu::Stage stage(gpu, "a stage"); }
+    EXPECT_EQ(pauses, 3);
+}
+
+TEST_F(GpuPauses, LetTheWorkBeGivenUp) {
+    gpu.on_pause([] { throw 1; });
+    const std::size_t linked = gpu.programs().linked();
+    EXPECT_THROW(coloured(gpu, 200), int);
+    EXPECT_EQ(gpu.programs().linked(), linked);
+    gpu.on_pause({});
+    coloured(gpu, 200);
+    EXPECT_EQ(gpu.programs().linked(), linked + 1);
 }
 
 }  // namespace
