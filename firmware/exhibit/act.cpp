@@ -40,6 +40,11 @@ Act::Act(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange, Setup set
     for (const Quality& quality : quality_.all())
         to_prepare_.push_back([this, quality] { make_ready(quality, Instant(0)); });
     to_prepare_.push_back([this] { show_.warm_up(quality_.all()); });
+    pieces_ = 1 + to_prepare_.size();
+}
+
+double Act::prepared() const {
+    return 1.0 - static_cast<double>(to_prepare_.size()) / static_cast<double>(pieces_);
 }
 
 bool Act::prepare() {

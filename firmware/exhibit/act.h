@@ -32,6 +32,8 @@ class Act {
     /// A piece of what is to be done before the act may begin: everything is drawn once, so that the driver compiles its shaders
     /// now. False when nothing is left.
     bool prepare();
+    /// The share of the pieces that is done; that the act was made at all was the first.
+    double prepared() const;
     /// From now on this act is played, and has a say in what the hand is told; `before`, if any, no more. There is no force until
     /// this fluid has answered.
     void begin(HandOrders& orders, const Act* before = nullptr);
@@ -83,6 +85,7 @@ class Act {
     Views views_;
     GainWatch gain_;
     std::vector<std::function<void()>> to_prepare_;  ///< the next last
+    std::size_t pieces_;                             ///< that there were at first
     HandOrders* orders_ = nullptr;                   ///< while it is played
     std::uint64_t stale_answers_ = 0;                ///< up to this one, of before a beginning
     Instant rest_ends_{0};

@@ -8,8 +8,15 @@ namespace {
 constexpr EventKind kKinds[] = {
     {Event::Started, "started", "ebd74603bb9e4b66bf71ce7cf6122f36", Priority::Notice, "The program begins.",
      "Nothing."},
+    {Event::FirstPicture, "first_picture", "25e8bb8e973094f42eee22892bf734e2", Priority::Notice,
+     "The screen shows words, which move, while the fluid is being prepared; the line says how many seconds "
+     "after "
+     "the start of the program, as the field EDDY_AFTER_S does.",
+     "Nothing."},
     {Event::Ready, "ready", "e23300ad060d4172a8b68f2a26d1190f", Priority::Notice,
-     "The first frame is on the screen.", "Nothing."},
+     "The first frame of the show is on the screen; with the seconds since the start of the program, as "
+     "above.",
+     "Nothing."},
     {Event::Stopping, "stopping", "78f4a4ed5ce54fa2873fe880dc30d58b", Priority::Notice,
      "The program ends because it was told to.", "Nothing, if you told it."},
     {Event::EndedBadly, "ended_badly", "0b0fd89bf13144f0ab0322253e0e2f0c", Priority::Warning,

@@ -9,6 +9,7 @@ namespace eddy {
 /// What the log speaks of: one kind for each thing that somebody may want to look for, or be woken by.
 enum class Event : std::uint8_t {
     Started,
+    FirstPicture,
     Ready,
     Stopping,
     EndedBadly,

@@ -1,8 +1,18 @@
 #include "firmware/exhibit/front.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace eddy {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Between two pictures of wait(): often enough to be seen to move, and no more than a quarter of the time.
+constexpr Instant kWaitPause = 50ms;
+constexpr int kWaitTimes = 3;
+
+}  // namespace
 
 Front::Front(std::unique_ptr<Graphics> graphics, HandSide& hand, std::filesystem::path screen_memory,
              long most_px)
@@ -55,9 +65,20 @@ const gles::Texture& Front::show_act(Instant now, const std::string& caption) {
 }
 
 const gles::Texture& Front::show_words(const std::vector<std::string>& lines, Instant now) {
-    notice_->draw(lines, now);
-    screen_->show(notice_->picture());
+    notice_->draw(lines, now, preparing() && !plays() ? std::optional(playbill_->prepared()) : std::nullopt);
+    if (screen_->show(notice_->picture()) || !has_screen()) has_shown_words_ = true;
     return notice_->picture();
+}
+
+bool Front::wait(const std::vector<std::string>& lines, Instant now) {
+    screen_->poll(now);
+    if (screen_->graphics_lost()) return false;
+    if (now < wait_due_ || !(wants_picture() || !has_screen())) return true;
+    const RealClock clock;
+    show_words(lines, now);
+    const Instant took = clock.now();
+    wait_due_ = now + took + std::max(kWaitPause, kWaitTimes * took);
+    return true;
 }
 
 }  // namespace eddy

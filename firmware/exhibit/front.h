@@ -23,8 +23,10 @@ class Front {
     /// Another act is to follow, in pictures of the screen's shape.
     void announce(const Scene& scene, Act::Setup setup);
     bool preparing() const { return playbill_->something_announced(); }
-    /// A piece of what the announced act needs.
-    std::optional<Playbill::News> prepare() { return playbill_->work(); }
+    /// A piece of what the announced act needs; see Playbill::work().
+    std::optional<Playbill::News> prepare(const std::function<bool()>& meanwhile = {}) {
+        return playbill_->work(meanwhile);
+    }
     bool plays() const { return playbill_->plays(); }
     Act& act() { return playbill_->act(); }
     const Act& act() const { return playbill_->act(); }
@@ -36,6 +38,11 @@ class Front {
     /// Draws the act, or the words, and shows it if there is a screen.
     const gles::Texture& show_act(Instant now, const std::string& caption);
     const gles::Texture& show_words(const std::vector<std::string>& lines, Instant now);
+    /// Words were shown, or would have been if there were a screen.
+    bool has_shown_words() const { return has_shown_words_; }
+    /// In place of poll() and show_words() in the middle of prepare(), as often as one likes: shows them when a picture is due. False: the
+    /// GPU was reset, and what is being prepared is lost.
+    bool wait(const std::vector<std::string>& lines, Instant now);
     /// Opening hours.
     void set_awake(bool awake) { screen_->set_awake(awake); }
 
@@ -62,6 +69,8 @@ class Front {
     };
     std::optional<Announced> last_;
     std::uint64_t gpu_resets_ = 0;
+    bool has_shown_words_ = false;
+    Instant wait_due_{0};  ///< the next picture of wait()
 };
 
 }  // namespace eddy

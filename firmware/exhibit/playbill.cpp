@@ -9,6 +9,33 @@ void Playbill::announce(const Scene& scene, Act::Setup setup) {
     announced_ = {scene, std::move(setup)};
 }
 
+namespace {
+
+struct GivenUp {};
+
+/// As long as it lives, `meanwhile` is called in the pauses of the GPU's work.
+class Pauses {
+  public:
+    Pauses(gles::Gpu& gpu, const std::function<bool()>& meanwhile) : gpu_(gpu) {
+        if (!meanwhile) return;
+        gpu_.on_pause([&meanwhile] {
+            if (!meanwhile()) throw GivenUp();
+        });
+    }
+    ~Pauses() { gpu_.on_pause({}); }
+    Pauses(const Pauses&) = delete;
+    Pauses& operator=(const Pauses&) = delete;
+
+  private:
+    gles::Gpu& gpu_;
+};
+
+}  // namespace
+
+double Playbill::prepared() const {
+    return next_ ? next_->prepared() : 0.0;
+}
+
 /// Whether something is left.
 bool Playbill::prepare_a_piece() {
     if (next_) return next_->prepare();
@@ -16,9 +43,10 @@ bool Playbill::prepare_a_piece() {
     return true;
 }
 
-std::optional<Playbill::News> Playbill::work() {
+std::optional<Playbill::News> Playbill::work(const std::function<bool()>& meanwhile) {
     if (!announced_) return std::nullopt;
     const RealClock clock;
+    const Pauses pauses(gpu_, meanwhile);
     News news;
     try {
         const bool more = prepare_a_piece();
@@ -28,6 +56,9 @@ std::optional<Playbill::News> Playbill::work() {
         act_ = std::move(next_);
         gpu_.free_idle_textures();
         news = {.began = true, .prepared = announced_->prepared};
+    } catch (const GivenUp&) {
+        next_.reset();
+        return std::nullopt;
     } catch (const std::exception& e) {
         next_.reset();
         news = {.prepared = announced_->prepared, .failed = e.what()};

@@ -22,8 +22,12 @@ class Playbill {
         Seconds prepared{0.0};    ///< after so much time of this thread,
         std::string failed = {};  ///< or cannot, for this reason: the one before plays on
     };
-    /// A piece of what makes the announced act ready; it begins with the last one.
-    std::optional<News> work();
+    /// A piece of what makes the announced act ready; it begins with the last one. A piece may take long: `meanwhile`, if any, is
+    /// called in the middle of it, often, and may draw; if it returns false, what there is of the act is given up, and the next
+    /// call begins anew.
+    std::optional<News> work(const std::function<bool()>& meanwhile = {});
+    /// Which share of the pieces is done.
+    double prepared() const;
 
     bool plays() const { return act_ != nullptr; }
     Act& act() { return *act_; }

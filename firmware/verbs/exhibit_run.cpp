@@ -9,6 +9,7 @@
 #include "firmware/destination.h"
 #include "firmware/exhibit/caption.h"
 #include "firmware/exhibit/metrics.h"
+#include "firmware/exhibit/process_age.h"
 #include "firmware/run_summary.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/run_device.h"
@@ -33,6 +34,9 @@ constexpr Instant kClosedTurn = 50ms;
 /// In the run folder: the button was held while the machine started.
 constexpr const char* kFactoryMarker = "factory.request";
 constexpr const char* kPowerOff = "poweroff.request";
+// What the screen says while there is nothing to play.
+constexpr const char* kGettingReady = "Getting the fluid ready";
+const std::vector<std::string> kMadeAnew{"One moment", "The picture is being made anew."};
 
 Instant instant(Seconds s) {
     return std::chrono::duration_cast<Instant>(s);
@@ -106,6 +110,11 @@ void ExhibitRun::say(Event event, const std::string& message, const LogSink::Fie
     journal_.say(clock_.now(), event, message, fields);
 }
 
+void ExhibitRun::say_when(Event event, const std::string& message) {
+    const std::string after = fmt::format("{:.2f}", process_age().value_or(clock_.now()).count());
+    say(event, fmt::format("{}, {} s after the start", message, after), {{"EDDY_AFTER_S", after}});
+}
+
 // ---------------------------------------------------------------------------------------------------- the start
 
 void ExhibitRun::look_back() {
@@ -155,6 +164,7 @@ void ExhibitRun::open() {
         open_display(exhibit_.display, exhibit_.screen, exhibit_.state_dir), *hand_,
         is_folder(exhibit_.state_dir) ? screen_memory(exhibit_.state_dir) : std::filesystem::path(),
         exhibit_.screen.max_pixels);
+    prelude(kGettingReady);
     visitors_.emplace(Seconds(exhibit_.unattended.idle_after_s));
     opening_.emplace(exhibit_.hours);
     if (!state_dir_.empty() && !usage_) usage_.emplace(state_dir_);
@@ -193,11 +203,10 @@ bool ExhibitRun::first_act() {
                                        hand_->has_device()));
     hand_began_ = clock_.now();
     hand_->start(clock_);
-    while (!asked_to_stop()) {
-        prelude("Getting the fluid ready");
+    while (!asked_to_stop() && !lost_) {
+        lost_ = front_->poll(clock_.now()) == DisplayState::Lost;
         intake_->building(offer_->hash);
-        const auto news = front_->prepare();
-        hand_->follow();
+        const auto news = front_->prepare([this] { return prelude(kGettingReady); });
         if (!news) continue;
         if (news->began) {
             if (news->prepared > kSlowWarmUp)
@@ -216,12 +225,17 @@ bool ExhibitRun::first_act() {
     return false;
 }
 
-void ExhibitRun::prelude(const std::string& what) {
+bool ExhibitRun::prelude(const std::string& what) {
     const Instant now = clock_.now();
     service_.preparing(now, what);
-    lost_ = front_->poll(now) == DisplayState::Lost;
-    if (front_->wants_picture()) front_->show_words({"Eddy is starting", what + "."}, now);
+    const bool usable = front_->wait({"Eddy is starting", what + "."}, now);
+    if (!first_words_ && front_->has_shown_words()) {
+        first_words_ = true;
+        say_when(Event::FirstPicture, "the first words are on " + front_->graphics().display->describe());
+    }
     if (panel_) panel_->show(LampCode::Starting);
+    hand_->follow();
+    return usable && !asked_to_stop();
 }
 
 // ----------------------------------------------------------------------------------------------------- a turn
@@ -253,14 +267,14 @@ void ExhibitRun::draw(Instant now) {
     if (!first_frame_ && (on_screen || !front_->has_screen())) {
         first_frame_ = true;
         service_.first_frame(now);
-        say(Event::Ready, fmt::format("{} on {}", scene_.title, front_->graphics().display->describe()));
+        say_when(Event::Ready, fmt::format("{} on {}", scene_.title, front_->graphics().display->describe()));
     }
     if (!asked && (now < frame_due_ || !(on_screen || recording_.on()))) return;
 
     const bool words = !front_->plays() || (guide_until_ && now < *guide_until_);
     const auto show = [&]() -> const gles::Texture& {
         if (words && front_->plays()) return front_->show_words(guide_page(), now);
-        if (words) return front_->show_words({"One moment", "The picture is being made anew."}, now);
+        if (words) return front_->show_words(kMadeAnew, now);
         return front_->show_act(now, caption_of(*hand_, presence_ == Presence::Leaving));
     };
     const auto work = [&] {
@@ -385,11 +399,10 @@ void ExhibitRun::prepare_next(Instant now) {
     if (!front_->preparing()) return;
     service_.long_work_begins();
     std::optional<Playbill::News> news;
-    const auto piece = [&] { news = front_->prepare(); };
     if (front_->plays())
-        front_->act().beside_the_fluid(piece);
+        front_->act().beside_the_fluid([&] { news = front_->prepare(); });
     else
-        piece();
+        news = front_->prepare([this] { return front_->wait(kMadeAnew, clock_.now()) && !asked_to_stop(); });
     service_.long_work_ends(clock_.now());
     if (!news) return;
     if (!offer_) {  // after a reset of the GPU

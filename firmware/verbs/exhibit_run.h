@@ -45,8 +45,9 @@ class ExhibitRun {
     void choose(ConfigOffer offer);
     /// Until the first act plays. False: told to stop meanwhile.
     bool first_act();
-    /// Says on the screen, and to the service manager, what takes so long.
-    void prelude(const std::string& what);
+    /// While there is nothing to play yet, as often as one likes: says on the screen, and to the service manager, what takes so
+    /// long. False: there is no use in going on with it.
+    bool prelude(const std::string& what);
 
     // --- a turn
     void turn(Instant now, Seconds since_last);
@@ -74,6 +75,8 @@ class ExhibitRun {
     VitalSigns vital_signs() const;
     std::vector<std::string> guide_page() const;
     void say(Event event, const std::string& message, const LogSink::Fields& fields = {});
+    /// With the seconds since the program's start.
+    void say_when(Event event, const std::string& message);
     std::time_t wall_time() const { return std::time(nullptr); }
 
     RunOptions options_;
@@ -105,7 +108,7 @@ class ExhibitRun {
     FrameTimes frame_times_;
 
     Instant hand_began_{0}, show_began_{0};
-    bool first_frame_ = false;
+    bool first_words_ = false, first_frame_ = false;
     bool lost_ = false;  ///< only a new process can help
     bool shut_down_ = false;
     bool is_open_ = true;

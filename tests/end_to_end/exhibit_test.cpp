@@ -74,6 +74,22 @@ TEST_F(ExhibitEndToEnd, TakesALiveSettingWithoutABreakInTheShow) {
     EXPECT_THAT(ended.out, HasSubstr("In the jet")) << "the same act all along";
 }
 
+TEST_F(ExhibitEndToEnd, ShowsWordsUntilTheFluidIsReady) {
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    exhibit.send(SIGTERM);
+    const Ended ended = exhibit.wait();
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("the first words are on"));
+    std::vector<double> after_s;
+    for (const std::string& line : lines_of(ended.err))
+        if (const auto end = line.find(" s after the start"); end != line.npos)
+            after_s.push_back(std::stod(line.substr(line.rfind(' ', end - 1))));
+    ASSERT_EQ(after_s.size(), 2u) << ended.err;
+    EXPECT_GT(after_s[0], 0.0);
+    EXPECT_LT(after_s[0], after_s[1]);
+}
+
 TEST_F(ExhibitEndToEnd, PlaysTheOldSceneUntilTheNewOneIsReady) {
     drop("scene = \"jet\"\n");
     Program exhibit(command());

@@ -39,6 +39,30 @@ TEST_F(NoticeTest, MovesAsLongAsTheMachineLives) {
     EXPECT_EQ(first, at(4s)) << "there and back";
 }
 
+TEST_F(NoticeTest, SaysHowFarItIsIfThatIsKnown) {
+    const auto at = [&](std::optional<double> done) {
+        notice.draw({"Eddy is starting"}, 0s, done);
+        return lit(gles::rgb_from_top(gpu, notice.picture()));
+    };
+    const double unknown = at({}), none = at(0.0), half = at(0.5), all = at(1.0);
+    EXPECT_GT(none, unknown) << "the way to go";
+    EXPECT_GT(half, none);
+    EXPECT_NEAR(all - half, half - none, 0.02 * (all - none)) << "as long as what is done";
+    EXPECT_EQ(at(7.0), all);
+    EXPECT_EQ(at({}), unknown);
+}
+
+TEST_F(NoticeTest, DrawsItsWordsOnlyWhenTheyAreOthers) {
+    std::vector<gles::PassRecord> passes;
+    drawn({"Eddy is starting"}, 0s);
+    gpu.record(&passes);
+    drawn({"Eddy is starting"}, 1s);
+    EXPECT_TRUE(passes.empty()) << "what moves needs no shader";
+    drawn({"Eddy is closed"}, 1s);
+    gpu.record(nullptr);
+    EXPECT_EQ(passes.size(), 1u);
+}
+
 TEST(Wrapped, BreaksWhereALineIsFullAndLosesNoWord) {
     const std::string words = "The driver has no OpenGL ES 3: look into the log";
     std::string joined;

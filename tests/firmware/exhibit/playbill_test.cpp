@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/gles/gl_fixture.h"
 
 namespace eddy {
@@ -67,6 +69,48 @@ TEST_F(PlaybillTest, ForgetsAnActThatAnotherOvertakes) {
     finish();
     EXPECT_EQ(playbill.act().scene().title, "second");
     EXPECT_FALSE(playbill.work());
+}
+
+TEST_F(PlaybillTest, PausesBeforeEachShaderProgramThatAnActNeeds) {
+    playbill.announce(tank(9, "first"), {});
+    std::size_t linked = gpu.programs().linked(), most = 0;
+    const std::size_t before = linked;
+    std::vector<double> prepared;
+    const auto meanwhile = [&] {
+        most = std::max(most, gpu.programs().linked() - linked);
+        linked = gpu.programs().linked();
+        prepared.push_back(playbill.prepared());
+        return true;
+    };
+    while (!playbill.work(meanwhile)) {
+    }
+    EXPECT_TRUE(playbill.plays());
+    EXPECT_GT(linked, before + 10) << "a grid that no test had before";
+    EXPECT_EQ(most, 1u);
+    EXPECT_EQ(prepared.front(), 0.0);
+    EXPECT_GT(prepared.back(), 0.5);
+    EXPECT_TRUE(std::is_sorted(prepared.begin(), prepared.end()));
+    const std::size_t pauses = prepared.size();
+    playbill.act().go_on(20ms, 20ms);
+    EXPECT_EQ(prepared.size(), pauses) << "none in the show";
+}
+
+TEST_F(PlaybillTest, GivesAnActUpInTheMiddleAndBeginsItAnew) {
+    int all = 0;
+    playbill.announce(tank(11, "first"), {});
+    while (!playbill.work([&] { return ++all > 0; })) {
+    }
+    for (const int after : {3, all - 3}) {  // in the middle of making it, and of preparing it
+        playbill.announce(tank(11, "again"), {});
+        int pauses = 0;
+        const auto meanwhile = [&] { return ++pauses < after; };
+        while (pauses < after) ASSERT_FALSE(playbill.work(meanwhile)) << after;
+        EXPECT_EQ(playbill.prepared(), 0.0);
+        EXPECT_TRUE(playbill.something_announced());
+        EXPECT_TRUE(finish().began);
+        EXPECT_EQ(playbill.act().scene().title, "again");
+        playbill.act().go_on(20ms, 20ms);
+    }
 }
 
 TEST_F(PlaybillTest, KeepsNoTextureOfActsThatHavePlayed) {
