@@ -86,7 +86,9 @@ std::optional<ConfigIntake::Objection> ConfigIntake::objection(const ConfigSet& 
         return Objection{result, {of_folder(setup_.folder, why)}};
     };
     if (set.files.exhibit.none()) {
-        const bool had_some = running_ ? report_.source != ConfigSource::Factory : last_good_.has_value();
+        const bool had_some = running_ ? report_.source != ConfigSource::Factory
+                              : open_  ? open_->source != ConfigSource::Factory
+                                       : last_good_.has_value();
         if (!had_some) return std::nullopt;
         return because(ConfigResult::Refused,
                        "no settings are here any more; for the factory's put an exhibit.toml "
@@ -119,18 +121,17 @@ ConfigOffer ConfigIntake::start() {
 
 ConfigOffer ConfigIntake::offer(ConfigSet set, ConfigSource source) {
     ConfigOffer offer{set.hash, source, set.exhibit.exhibit, set.scene};
-    if (running_) {
-        const Exhibit& runs = running_->exhibit.exhibit;
-        offer.exhibit = without_restart(runs, set.exhibit.exhibit);
+    if (in_force_) offer.exhibit = without_restart(*in_force_, set.exhibit.exhibit);
+    if (const ConfigSet* before = running_ ? &*running_ : open_ ? &open_->set : nullptr) {
+        const Exhibit& runs = before->exhibit.exhibit;
         offer.changes = changed_keys(runs, set.exhibit.exhibit);
         const bool renamed = std::any_of(offer.changes.begin(), offer.changes.end(),
                                          [](const KeyChange& c) { return c.key == "scene"; });
-        if (!renamed && !same_scene_files(set.files, running_->files))
+        if (!renamed && !same_scene_files(set.files, before->files))
             offer.changes.push_back(
                 {"scene", TakesEffect::Scene, to_toml(runs.scene), to_toml(set.exhibit.exhibit.scene)});
     }
-    open_ = std::move(set);
-    open_source_ = source;
+    overtaken_ = std::exchange(open_, Open{std::move(set), source});
     if (source == ConfigSource::New) {
         report_.result = ConfigResult::Trying;
         report_.errors.clear();
@@ -139,30 +140,41 @@ ConfigOffer ConfigIntake::offer(ConfigSet set, ConfigSource source) {
 }
 
 void ConfigIntake::building(const std::string& hash) {
-    if (!open_ || open_->hash != hash || memory_.on_probation() == hash) return;
-    if (open_source_ == ConfigSource::New && hash != memory_.last_good_hash()) memory_.begin_probation(hash);
+    if (!open_ || open_->set.hash != hash) return;
+    overtaken_.reset();
+    if (!in_force_) in_force_ = open_->set.exhibit.exhibit;
+    blame(is_proven(*open_) ? "" : hash);
 }
 
-void ConfigIntake::accepted(const std::string& hash, Instant now) {
-    if (!open_ || open_->hash != hash) return;
-    report_.pending_restart.clear();
-    if (running_) {
-        const Exhibit& runs = running_->exhibit.exhibit;
-        for (KeyChange& change : changed_keys(runs, open_->exhibit.exhibit))
-            if (change.takes_effect > TakesEffect::Scene)
-                report_.pending_restart.push_back(std::move(change));
-        open_->exhibit.exhibit = without_restart(runs, open_->exhibit.exhibit);
-    }
-    const bool proven = open_source_ != ConfigSource::New || hash == memory_.last_good_hash();
-    if (proven)
+bool ConfigIntake::is_proven(const Open& open) const {
+    return open.source != ConfigSource::New || open.set.hash == memory_.last_good_hash();
+}
+
+/// Should the program die from now on, it is for this one; empty: for none that is known.
+void ConfigIntake::blame(const std::string& hash) {
+    if (memory_.on_probation() == hash) return;
+    if (hash.empty())
         memory_.end_probation();
     else
         memory_.begin_probation(hash);
+}
+
+void ConfigIntake::accepted(const std::string& hash, Instant now) {
+    if (!open_ || open_->set.hash != hash) return;
+    building(hash);
+    Exhibit& exhibit = open_->set.exhibit.exhibit;
+    report_.pending_restart.clear();
+    for (KeyChange& change : changed_keys(*in_force_, exhibit))
+        if (change.takes_effect > TakesEffect::Scene) report_.pending_restart.push_back(std::move(change));
+    exhibit = without_restart(*in_force_, exhibit);
+    in_force_ = exhibit;
+    const bool proven = is_proven(*open_);
     probation_until_ = proven ? std::nullopt : std::optional(now + kProbation);
-    running_ = std::move(open_);
+    const ConfigSource source = open_->source;
+    running_ = std::move(open_->set);
     open_.reset();
-    if (open_source_ == ConfigSource::New) report_.result = ConfigResult::Applied;
-    report_.source = open_source_;
+    if (source == ConfigSource::New && hash == report_.hash) report_.result = ConfigResult::Applied;
+    report_.source = source;
     report_.running_hash = hash;
     report_.applied_at = utc_now();
     report_.probation = !proven;
@@ -171,10 +183,11 @@ void ConfigIntake::accepted(const std::string& hash, Instant now) {
 }
 
 void ConfigIntake::refused(const std::string& hash, const std::string& reason) {
-    if (!open_ || open_->hash != hash) return;
+    if (!open_ || open_->set.hash != hash) return;
     refused_.push_back(hash);
-    const bool in_folder = open_source_ == ConfigSource::New;
-    open_.reset();
+    const bool in_folder = open_->source == ConfigSource::New;
+    open_ = std::exchange(overtaken_, std::nullopt);
+    if (memory_.on_probation() == hash) blame(probation_until_ ? report_.running_hash : "");
     const Diagnostic blame = of_folder(setup_.folder, reason);
     if (in_folder)
         refuse(ConfigResult::Refused, {blame});
@@ -185,7 +198,7 @@ void ConfigIntake::refused(const std::string& hash, const std::string& reason) {
 
 void ConfigIntake::stopped() {
     if (keeping_.valid()) keeping_.wait();
-    if (probation_until_) memory_.end_probation();
+    blame("");
     probation_until_.reset();
 }
 
@@ -195,6 +208,9 @@ std::optional<ConfigOffer> ConfigIntake::consider(ConfigSet set) {
     report_.hash = set.hash;
     if (auto why = objection(set)) {
         refuse(why->result, std::move(why->errors));
+    } else if (open_ && set.hash == open_->set.hash) {
+        report_.result = ConfigResult::Trying;  // what is being built is back
+        report_.errors.clear();
     } else if (set.hash != report_.running_hash || report_.source == ConfigSource::LastGood) {
         ConfigOffer made = offer(std::move(set), ConfigSource::New);
         publish();
@@ -227,7 +243,7 @@ std::optional<ConfigOffer> ConfigIntake::poll(Instant now) {
 
     const FolderWatch::News news = watch_.poll(now);
     if (news.changed) quiet_until_ = now + kQuiet;
-    if (open_) return std::nullopt;
+    if (open_ && running_) return std::nullopt;
     if (is_ready(reading_)) {
         ConfigSet set = reading_.get();
         // Written to while it was read: the next reading counts.

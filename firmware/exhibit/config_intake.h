@@ -19,7 +19,8 @@ struct ConfigOffer {
     Exhibit exhibit;
     /// The scene, as checked; not to be read again, for its files may be others by then.
     LoadedScene scene;
-    std::vector<KeyChange> changes{};  ///< since what runs; "scene" too when only its file is another
+    std::vector<KeyChange>
+        changes{};  ///< since what runs, or is being built; "scene" too when only its file is another
 
     /// Whether more than `live` keys changed: the old show runs on until the new scene is built.
     bool needs_new_scene() const;
@@ -60,10 +61,12 @@ class ConfigIntake {
     /// factory's settings can be built.
     ConfigOffer start();
 
-    /// A new configuration, if there is one; the next only after accepted() or refused().
+    /// A new configuration, if there is one; the next only after accepted() or refused(). But before the first is accepted, a new one
+    /// overtakes what is being built: its changes are since that, and if it is refused, that is still being built.
     std::optional<ConfigOffer> poll(Instant now);
 
-    /// What was offered is being built from now on: should the program die of that, it is on the black list too.
+    /// What was offered is being built from now on, or takes effect beside what is: should the program die of that, it is on the
+    /// black list too.
     void building(const std::string& hash);
     void accepted(const std::string& hash, Instant now);
     /// `reason` is one line for the operator; the show goes on as it is.
@@ -81,7 +84,14 @@ class ConfigIntake {
         std::vector<Diagnostic> errors;
     };
 
+    struct Open {
+        ConfigSet set;
+        ConfigSource source;
+    };
+
     ConfigOffer offer(ConfigSet set, ConfigSource source);
+    bool is_proven(const Open& open) const;
+    void blame(const std::string& hash);
     std::optional<ConfigOffer> consider(ConfigSet set);
     std::optional<ConfigSet> good_one_in_folder();
     std::optional<Objection> objection(const ConfigSet& set) const;
@@ -96,8 +106,9 @@ class ConfigIntake {
 
     bool started_ = false;
     std::optional<ConfigSet> last_good_;  ///< at the start
-    std::optional<ConfigSet> open_;       ///< offered, not answered yet
-    ConfigSource open_source_ = ConfigSource::New;
+    std::optional<Open> open_;            ///< offered, not answered yet
+    std::optional<Open> overtaken_;       ///< by that; open again if that is refused
+    std::optional<Exhibit> in_force_;     ///< what does not change without a restart is as in this
     std::optional<ConfigSet> running_;
     std::vector<std::string> refused_;  ///< since the start, by the caller
 

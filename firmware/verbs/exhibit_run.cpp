@@ -199,14 +199,19 @@ void ExhibitRun::choose(ConfigOffer offer) {
 
 bool ExhibitRun::first_act() {
     const RealClock took;
-    front_->announce(scene_, act_setup(options_, exhibit_, scene_, recording_.on() || front_->has_screen(),
-                                       hand_->has_device()));
     hand_began_ = clock_.now();
     hand_->start(clock_);
     while (!asked_to_stop() && !lost_) {
         lost_ = front_->poll(clock_.now()) == DisplayState::Lost;
-        intake_->building(offer_->hash);
-        const auto news = front_->prepare([this] { return prelude(kGettingReady); });
+        heed_settings(clock_.now());
+        if (!std::exchange(announced_, true)) {
+            intake_->building(offer_->hash);
+            announce(*offer_);
+        }
+        const auto news = front_->prepare([this] {
+            heed_settings(clock_.now());
+            return prelude(kGettingReady) && announced_;
+        });
         if (!news) continue;
         if (news->began) {
             if (news->prepared > kSlowWarmUp)
@@ -219,10 +224,15 @@ bool ExhibitRun::first_act() {
         if (offer_->source == ConfigSource::Factory) throw gles::GlError(news->failed);
         refuse(*offer_, news->failed, clock_.now());
         choose(intake_->start());
-        front_->announce(scene_, act_setup(options_, exhibit_, scene_,
-                                           recording_.on() || front_->has_screen(), hand_->has_device()));
+        announced_ = false;
     }
     return false;
+}
+
+void ExhibitRun::announce(const ConfigOffer& offer) {
+    const Scene& scene = offer.scene.scene;
+    front_->announce(scene, act_setup(options_, with_options(offer.exhibit, options_), scene,
+                                      recording_.on() || front_->has_screen(), hand_->has_device()));
 }
 
 bool ExhibitRun::prelude(const std::string& what) {
@@ -233,7 +243,7 @@ bool ExhibitRun::prelude(const std::string& what) {
         first_words_ = true;
         say_when(Event::FirstPicture, "the first words are on " + front_->graphics().display->describe());
     }
-    if (panel_) panel_->show(LampCode::Starting);
+    shine(now);
     hand_->follow();
     return usable && !asked_to_stop();
 }
@@ -379,6 +389,10 @@ void ExhibitRun::take(ConfigOffer offer, Instant now) {
     const Exhibit exhibit = with_options(offer.exhibit, options_);
     try {
         require_possible(options_, exhibit, offer.scene.scene);
+        if (intake_->report().running_hash.empty()) {
+            overtake(std::move(offer));
+            return;
+        }
         if (!offer.needs_new_scene()) {
             exhibit_ = exhibit;
             taken(offer, now);
@@ -386,13 +400,22 @@ void ExhibitRun::take(ConfigOffer offer, Instant now) {
         }
         service_.reloading();
         intake_->building(offer.hash);
-        front_->announce(offer.scene.scene,
-                         act_setup(options_, exhibit, offer.scene.scene,
-                                   recording_.on() || front_->has_screen(), hand_->has_device()));
+        announce(offer);
         offer_ = std::move(offer);
     } catch (const std::exception& e) {
         refuse(offer, e.what(), now);
     }
+}
+
+/// What is being prepared for the start: nothing plays that should go on meanwhile.
+void ExhibitRun::overtake(ConfigOffer offer) {
+    say(Event::Note, "newer settings came while the fluid was being prepared");
+    intake_->building(offer.hash);
+    exhibit_ = with_options(offer.exhibit, options_);
+    scene_ = offer.scene.scene;
+    if (offer.needs_new_scene()) announced_ = false;
+    offer_ = std::move(offer);
+    apply_live();
 }
 
 void ExhibitRun::prepare_next(Instant now) {
@@ -425,7 +448,7 @@ void ExhibitRun::prepare_next(Instant now) {
 void ExhibitRun::taken(const ConfigOffer& offer, Instant now) {
     intake_->accepted(offer.hash, now);
     apply_live();
-    config_good_ = offer.source == ConfigSource::New || offer.source == ConfigSource::Factory;
+    config_good_ = intake_->report().result == ConfigResult::Applied;
     taken_at_s_ = static_cast<double>(wall_time());
     journal_.set_config_hash(offer.hash);
     if (offer.source == ConfigSource::LastGood)

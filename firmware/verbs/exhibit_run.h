@@ -43,6 +43,7 @@ class ExhibitRun {
     void open();
     void open_hand();
     void choose(ConfigOffer offer);
+    void announce(const ConfigOffer& offer);
     /// Until the first act plays. False: told to stop meanwhile.
     bool first_act();
     /// While there is nothing to play yet, as often as one likes: says on the screen, and to the service manager, what takes so
@@ -57,6 +58,7 @@ class ExhibitRun {
     void heed_hours(Instant now);
     void heed_settings(Instant now);
     void take(ConfigOffer offer, Instant now);
+    void overtake(ConfigOffer offer);
     void taken(const ConfigOffer& offer, Instant now);
     void refuse(const ConfigOffer& offer, const std::string& why, Instant now);
     void prepare_next(Instant now);
@@ -89,6 +91,7 @@ class ExhibitRun {
     StartLedger::Verdict verdict_;
     std::optional<ConfigIntake> intake_;
     std::optional<ConfigOffer> offer_;  ///< that is being built
+    bool announced_ = false;            ///< the first that is
     Exhibit exhibit_;
     Scene scene_;
 

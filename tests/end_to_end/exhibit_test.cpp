@@ -33,6 +33,16 @@ class ExhibitEndToEnd : public testing::Test {
                              "--set", kTiny, "--set", "render.width_px=160", "--set",
                              "render.height_px=120"});
     }
+    /// Drivers that remember no shader take some seconds for a scene with all effects.
+    std::vector<std::string> slow_command() const {
+        std::vector<std::string> arguments = command();
+        arguments.insert(arguments.begin(), {"env", "MESA_SHADER_CACHE_DISABLE=true"});
+        return arguments;
+    }
+    /// Something is being built that was never tried before.
+    bool builds() const {
+        return in_time([this] { return std::filesystem::exists(folder / "var/config/probation"); });
+    }
     /// As careful writers do it.
     void drop(const std::string& text) const {
         folder.write("etc/.new", text);
@@ -142,6 +152,24 @@ TEST_F(ExhibitEndToEnd, StartsWithWhatWasGoodIfTheNewestKilledIt) {
     EXPECT_EQ(answer().at("source"), "factory") << "there is nothing that was ever good";
     exhibit.send(SIGTERM);
     EXPECT_EQ(exhibit.wait().status, 0);
+}
+
+TEST_F(ExhibitEndToEnd, ReadsWhatIsDroppedWhileItPreparesItsFirstScene) {
+    drop("scene = \"everything\"\n");
+    Program exhibit(slow_command());
+    ASSERT_TRUE(builds());
+    drop("scene = \"nowhere\"\n");
+    EXPECT_TRUE(in_time([&] { return answer().is_object(); }));
+    EXPECT_EQ(answer().at("result"), "refused");
+    EXPECT_EQ(answer().at("running_hash"), "") << "nothing played yet";
+    drop("scene = \"stir\"\nmax_force_n = 2\n");
+    ASSERT_TRUE(plays());
+    EXPECT_EQ(read("status.json").at("scene"), "Stir the smoke");
+    EXPECT_EQ(answer().at("result"), "applied");
+    exhibit.send(SIGTERM);
+    const Ended ended = exhibit.wait();
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("newer settings came while the fluid was being prepared"));
 }
 
 TEST_F(ExhibitEndToEnd, GivesAPictureToWhoAsksForOne) {

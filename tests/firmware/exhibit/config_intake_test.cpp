@@ -299,6 +299,64 @@ TEST_F(Exhibits, FallBackWhenTheirBuilderRefusesAtTheStart) {
     EXPECT_THROW(intake_->start(), ConfigError);
 }
 
+TEST_F(Exhibits, LetANewerFileOvertakeWhatIsBeingBuiltForTheStart) {
+    write("exhibit.toml", "max_force_n = 3\nhaptics = \"none\"\n");
+    const ConfigOffer first = start(false);
+    intake_->building(first.hash);
+    write("exhibit.toml", "max_force_n = 2\nhaptics = \"none\"\n");
+    const auto second = pass(1s);
+    ASSERT_TRUE(second);
+    EXPECT_THAT(second->changes, ElementsAre(KeyChange{"max_force_n", TakesEffect::Live, "3", "2"}));
+    intake_->building(second->hash);
+    write("exhibit.toml", "max_force_n = 1\nscene = \"stir\"\nhaptics = \"emulated\"\n");
+    const auto third = pass(1s);
+    ASSERT_TRUE(third);
+    EXPECT_TRUE(third->needs_new_scene());
+    EXPECT_EQ(third->exhibit.haptics, HapticsChoice::None) << "it was opened with that";
+    intake_->accepted(first.hash, now_);
+    EXPECT_EQ(answer()["running_hash"], "") << "nobody builds that any more";
+    intake_->accepted(third->hash, now_);
+    EXPECT_EQ(answer()["running_hash"], third->hash);
+    EXPECT_EQ(answer()["result"], "applied");
+    ASSERT_EQ(answer()["pending_restart"].size(), 1u);
+    EXPECT_EQ(answer()["pending_restart"][0]["key"], "haptics");
+}
+
+TEST_F(Exhibits, BuildOnWhenWhatOvertakesCannotBeUsed) {
+    write("exhibit.toml", "max_force_n = 3\n");
+    const ConfigOffer first = start(false);
+    intake_->building(first.hash);
+    write("exhibit.toml", "scene = \"stir\"\n");
+    const auto second = pass(1s);
+    ASSERT_TRUE(second);
+    intake_->refused(second->hash, "no run can do that");
+    EXPECT_EQ(answer()["errors"][0]["message"], "no run can do that");
+    write("exhibit.toml", "max_force_n = \n");
+    EXPECT_FALSE(pass(1s));
+    EXPECT_EQ(answer()["result"], "refused");
+    intake_->accepted(first.hash, now_);
+    EXPECT_EQ(answer()["running_hash"], first.hash);
+    EXPECT_EQ(answer()["result"], "refused") << "what lies there now";
+    write("exhibit.toml", "max_force_n = 3\n");
+    EXPECT_FALSE(pass(1s)) << "it runs";
+    EXPECT_EQ(answer()["result"], "applied");
+}
+
+TEST_F(Exhibits, DoNotBeginAnewWhenWhatIsBeingBuiltIsBack) {
+    write("exhibit.toml", "max_force_n = 3\n");
+    const ConfigOffer first = start(false);
+    intake_->building(first.hash);
+    std::filesystem::remove(scratch_.path() / "eddy/exhibit.toml");
+    EXPECT_FALSE(pass(1s));
+    EXPECT_EQ(answer()["result"], "refused");
+    write("exhibit.toml", "max_force_n = 3\n");
+    EXPECT_FALSE(pass(1s));
+    EXPECT_EQ(answer()["result"], "trying");
+    EXPECT_THAT(answer()["errors"], IsEmpty());
+    intake_->accepted(first.hash, now_);
+    EXPECT_EQ(answer()["result"], "applied");
+}
+
 TEST_F(Exhibits, KeepTheirShowWhenTheFolderIsGone) {
     write("exhibit.toml", "max_force_n = 3\n");
     start();
