@@ -172,6 +172,28 @@ TEST_F(ExhibitEndToEnd, ReadsWhatIsDroppedWhileItPreparesItsFirstScene) {
     EXPECT_THAT(ended.err, HasSubstr("newer settings came while the fluid was being prepared"));
 }
 
+TEST_F(ExhibitEndToEnd, DoesNotBuildASceneAgainThatKilledItWhileItWasBuilt) {
+    {
+        Program exhibit(slow_command());
+        ASSERT_TRUE(plays());
+        drop("scene = \"everything\"\n");
+        ASSERT_TRUE(builds());
+        exhibit.send(SIGKILL);
+        exhibit.wait();
+    }
+    EXPECT_EQ(answer().at("result"), "trying") << "not played yet";
+    const std::string dropped = answer().at("hash");
+    std::filesystem::remove(folder / "run/status.json");
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    EXPECT_EQ(answer().at("result"), "black-listed") << answer();
+    EXPECT_EQ(answer().at("hash"), dropped);
+    EXPECT_EQ(answer().at("source"), "factory");
+    EXPECT_EQ(read("status.json").at("scene"), "In the jet");
+    exhibit.send(SIGTERM);
+    EXPECT_EQ(exhibit.wait().status, 0);
+}
+
 TEST_F(ExhibitEndToEnd, GivesAPictureToWhoAsksForOne) {
     Program exhibit(command());
     ASSERT_TRUE(plays());

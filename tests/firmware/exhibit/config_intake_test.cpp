@@ -260,6 +260,60 @@ TEST_F(Exhibits, ComeUpWithTheLastGoodOneAfterTheyDiedUnderANewOne) {
     EXPECT_EQ(answer()["probation"], false) << "it is the last good one";
 }
 
+TEST_F(Exhibits, BlameADeathWhileAConfigurationIsBuiltOnThat) {
+    write("exhibit.toml", "max_force_n = 3\n");
+    start();  // on probation itself
+    write("exhibit.toml", "scene = \"stir\"\n");
+    const auto built = pass(1s);
+    ASSERT_TRUE(built);
+    intake_->building(built->hash);
+    crash();
+    EXPECT_NE(start().hash, built->hash);
+    EXPECT_EQ(answer()["result"], "black-listed");
+    write("exhibit.toml", "max_force_n = 3\n");
+    EXPECT_TRUE(take()) << "the one before did nothing";
+}
+
+TEST_F(Exhibits, BlameADeathWhileTheFirstIsBuiltOnThat) {
+    write("exhibit.toml", "max_force_n = 3\n");
+    const std::string hash = start(false).hash;
+    intake_->building(hash);
+    crash();
+    EXPECT_EQ(start().source, ConfigSource::Factory);
+    EXPECT_EQ(answer()["result"], "black-listed");
+}
+
+TEST_F(Exhibits, BlameNoDeathOnAConfigurationThatWasRefusedOrEndedWell) {
+    start();
+    write("exhibit.toml", "scene = \"stir\"\n");
+    const std::string hash = pass(1s).value().hash;
+    intake_->building(hash);
+    intake_->refused(hash, "the grid does not fit into this GPU");
+    crash();
+    EXPECT_EQ(start(false).hash, hash) << "it may be tried again: on another GPU, perhaps";
+    intake_->building(hash);
+    intake_->stopped();
+    crash();
+    EXPECT_EQ(start(false).hash, hash);
+    intake_->building(hash);
+    cut_power();
+    EXPECT_EQ(start(false).hash, hash) << "a power cut is no proof";
+}
+
+TEST_F(Exhibits, BlameTheRunningOneAgainWhenAnotherWasRefused) {
+    write("exhibit.toml", "max_force_n = 3\n");
+    const std::string running = start().hash;
+    write("exhibit.toml", "scene = \"stir\"\n");
+    const std::string refused = pass(1s).value().hash;
+    intake_->building(refused);
+    intake_->refused(refused, "no");
+    crash();
+    write("exhibit.toml", "max_force_n = 3\n");
+    EXPECT_EQ(start().source, ConfigSource::Factory) << "it died in its first seconds";
+    EXPECT_EQ(answer()["result"], "black-listed");
+    EXPECT_EQ(answer()["hash"], running);
+}
+
 TEST_F(Exhibits, ComeUpWithTheFactorysWhenNothingElseIsGood) {
     write("exhibit.toml", "max_force_n = 3\n");
     start();
