@@ -15,7 +15,6 @@
 #include <functional>
 
 #include "firmware/built_from.h"
-#include "firmware/exhibit/kept.h"
 #include "firmware/haptic/flight_file.h"
 #include "firmware/text_file.h"
 
@@ -23,6 +22,15 @@ namespace eddy {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// All there is of it; a crash writes no sum.
+std::string bytes_of(const fs::path& file) {
+    try {
+        return read_text_file(file);
+    } catch (const std::runtime_error&) {
+        return "";
+    }
+}
 
 constexpr std::array kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr std::string_view kPending = "crash.pending";
@@ -161,7 +169,7 @@ void CrashRecord::watch(const FlightRecorder* flights) {
 std::vector<std::string> CrashRecord::take_over(const fs::path& folder) {
     std::vector<std::string> said;
     const fs::path pending = folder / kPending;
-    const std::string bytes = kept(pending).value_or("");
+    const std::string bytes = bytes_of(pending);
     std::error_code error;
     if (bytes.empty()) {
         fs::remove(pending, error);

@@ -7,8 +7,6 @@
 #include <set>
 #include <sstream>
 
-#include "firmware/exhibit/kept.h"
-
 namespace eddy {
 namespace {
 
@@ -21,9 +19,9 @@ StartLedger::StartLedger(const std::filesystem::path& folder)
     : file_(folder / "starts"), marker_(folder / "safe"), starts_(read()) {}
 
 /// A line that is no start is left out.
-std::vector<StartLedger::Start> StartLedger::read() const {
+std::vector<StartLedger::Start> StartLedger::read() {
     std::vector<Start> starts;
-    std::istringstream lines(kept(file_).value_or(""));
+    std::istringstream lines(file_.read().value_or(""));
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
         Start start;
@@ -36,11 +34,11 @@ std::vector<StartLedger::Start> StartLedger::read() const {
     return starts;
 }
 
-bool StartLedger::write() const {
+bool StartLedger::write() {
     std::string text;
     for (const Start& start : starts_)
         text += fmt::format("{} {} {}\n", start.at_s, start.boot, start.well ? "well" : "-");
-    return keep(file_, text);
+    return file_.try_write(text);
 }
 
 bool StartLedger::gave_up(const std::string& boot, std::int64_t& at_s) const {

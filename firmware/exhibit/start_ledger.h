@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "firmware/exhibit/state_file.h"
+
 namespace eddy {
 
 /// How the run before this one ended.
@@ -53,12 +55,13 @@ class StartLedger {
         std::string boot;
         bool well = false;
     };
-    std::vector<Start> read() const;
-    bool write() const;
+    std::vector<Start> read();
+    bool write();
     /// The machine was started anew after this boot's failures; when the last of them was.
     bool gave_up(const std::string& boot, std::int64_t& at_s) const;
 
-    std::filesystem::path file_, marker_;
+    StateFile file_;
+    std::filesystem::path marker_;
     std::vector<Start> starts_;
 };
 

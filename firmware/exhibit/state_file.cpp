@@ -47,6 +47,15 @@ void StateFile::write(std::string_view text) {
     replace_text_file(file_, fmt::format("{}{}", text, sum_line(text)), disk_);
 }
 
+bool StateFile::try_write(std::string_view text) {
+    try {
+        write(text);
+        return true;
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
+
 void StateFile::remove() {
     std::error_code none;
     if (!std::filesystem::exists(file_, none)) return;

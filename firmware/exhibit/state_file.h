@@ -21,6 +21,8 @@ class StateFile {
 
     /// Makes the folder if need be. Throws std::runtime_error; then the old text stays.
     void write(std::string_view text);
+    /// The same for what must not stop the show: false in place of the exception.
+    bool try_write(std::string_view text);
     /// No error if it is not there. Throws std::runtime_error.
     void remove();
 

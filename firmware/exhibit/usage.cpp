@@ -5,8 +5,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "firmware/exhibit/kept.h"
-
 namespace eddy {
 namespace {
 
@@ -43,35 +41,33 @@ bool read_line(std::istringstream& words, Usage& usage) {
 }  // namespace
 
 UsageBook::UsageBook(const std::filesystem::path& folder) : file_(folder / "usage") {
-    const auto text = kept(file_);
-    if (!text || read(*text)) return;
+    const auto text = file_.read();
+    if (text ? read(*text) : file_.unreadable() == 0) return;
     damaged_ = true;
     total_ = {};
     days_.clear();
-    std::filesystem::path aside = file_;
+    std::filesystem::path aside = file_.path();
     aside += ".damaged";
     std::error_code ignored;
-    std::filesystem::rename(file_, aside, ignored);
+    std::filesystem::rename(file_.path(), aside, ignored);
 }
 
 bool UsageBook::read(std::string_view text) {
     std::istringstream lines{std::string(text)};
     std::string line, name;
     if (!std::getline(lines, line) || line != kFirstLine) return false;
-    bool has_total = false, ended = false;
+    bool has_total = false;
     while (std::getline(lines, line)) {
         std::istringstream words(line);
-        if (ended || !(words >> name)) return false;
-        if (name == "end") {
-            ended = true;
-        } else if (name == kTotal) {
+        if (!(words >> name)) return false;
+        if (name == kTotal) {
             has_total = read_line(words, total_);
             if (!has_total) return false;
         } else if (!read_line(words, days_[name])) {
             return false;
         }
     }
-    return has_total && ended;
+    return has_total;
 }
 
 void UsageBook::add(double Usage::*count, double much, std::time_t now) {
@@ -92,7 +88,7 @@ bool UsageBook::write() {
     if (!dirty_) return true;
     std::string text = fmt::format("{}\n{}", kFirstLine, line_of(kTotal, total_));
     for (const auto& [day, usage] : days_) text += line_of(day, usage);
-    dirty_ = !keep(file_, text + "end\n");
+    dirty_ = !file_.try_write(text);
     return !dirty_;
 }
 

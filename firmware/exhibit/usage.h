@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "firmware/exhibit/state_file.h"
 #include "hal/clock.h"
 
 namespace eddy {
@@ -62,7 +63,7 @@ class UsageBook {
   private:
     bool read(std::string_view text);
 
-    std::filesystem::path file_;
+    StateFile file_;
     Usage total_;
     std::map<std::string, Usage> days_;  ///< by "2026-11-24"
     bool damaged_ = false, dirty_ = false;

@@ -92,12 +92,13 @@ TEST_F(StartLedgerTest, WhateverTheFileHoldsTheProgramStarts) {
         folder_.write("starts", whole.substr(0, cut));
         EXPECT_FALSE(start(kNoon + 10, "b").safe) << cut;
     }
-    folder_.write("starts", std::string("\0\xff garbage\n7 a well more\nx a well\n", 32));
+    StateFile(folder_ / "starts").write(std::string("\0\xff garbage\n7 a well more\nx a well\n", 32));
     EXPECT_EQ(start(kNoon, "a").before, EndBefore::None);
 }
 
 TEST_F(StartLedgerTest, AStateFolderThatIsGoneDoesNotStopTheShow) {
-    const StartLedger::Verdict verdict = StartLedger("/nonexistent").begin(kNoon, "a");
+    folder_.write("no_folder", "");
+    const StartLedger::Verdict verdict = StartLedger(folder_ / "no_folder").begin(kNoon, "a");
     EXPECT_FALSE(verdict.safe);
     EXPECT_FALSE(verdict.written);
 }

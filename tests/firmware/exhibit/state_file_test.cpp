@@ -21,6 +21,8 @@ TEST(StateFile, GivesBackWhatWasWrittenLast) {
     file.remove();
     EXPECT_EQ(file.read(), std::nullopt);
     EXPECT_EQ(file.unreadable(), 0);
+    EXPECT_TRUE(file.try_write("3"));
+    EXPECT_EQ(file.read(), "3");
 }
 
 TEST(StateFile, ThatIsTornIsAsIfNotThereAndCounted) {
@@ -46,6 +48,7 @@ TEST(StateFile, ThatCannotBeWrittenSaysSoAndKeepsTheOldText) {
     folder.write("taken", "");
     StateFile file(folder.path() / "taken/visits");
     EXPECT_THROW(file.write("1"), std::runtime_error);
+    EXPECT_FALSE(file.try_write("1"));
     EXPECT_EQ(file.read(), std::nullopt);
 }
 

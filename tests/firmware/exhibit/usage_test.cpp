@@ -92,8 +92,7 @@ TEST_F(UsageTest, AFileCutAnywhereIsNoticedAndPutAside) {
         book.add(&Usage::starts, 123456789, noon_);
     }
     const std::string whole = read_all(folder_ / "usage");
-    // All but the last line end is missed.
-    for (std::size_t cut = 0; cut + 1 < whole.size(); ++cut) {
+    for (std::size_t cut = 0; cut < whole.size(); ++cut) {
         folder_.write("usage", whole.substr(0, cut));
         UsageBook book(folder_.path());
         ASSERT_TRUE(book.damaged()) << cut;
@@ -103,13 +102,12 @@ TEST_F(UsageTest, AFileCutAnywhereIsNoticedAndPutAside) {
 }
 
 TEST_F(UsageTest, NonsenseIsNotCounted) {
-    for (const char* text :
-         {"", "x", "eddy usage 1\ntotal visits -1\nend\n", "eddy usage 1\ntotal visits nan\nend\n",
-          "eddy usage 1\nend\n", "eddy usage 1\ntotal visits\nend\n"}) {
-        folder_.write("usage", text);
+    for (const char* text : {"", "x", "eddy usage 1\ntotal visits -1\n", "eddy usage 1\ntotal visits nan\n",
+                             "eddy usage 1\n", "eddy usage 1\ntotal visits\n"}) {
+        StateFile(folder_ / "usage").write(text);
         EXPECT_TRUE(UsageBook(folder_.path()).damaged()) << text;
     }
-    folder_.write("usage", "eddy usage 1\ntotal visits 3 of_a_newer_program 7\nend\n");
+    StateFile(folder_ / "usage").write("eddy usage 1\ntotal visits 3 of_a_newer_program 7\n");
     EXPECT_EQ(UsageBook(folder_.path()).total().visits, 3.0);
 }
 
@@ -124,7 +122,8 @@ TEST_F(UsageTest, KeepsASeasonOfDaysAndAllOfTheTotal) {
 }
 
 TEST_F(UsageTest, AFullDiskIsSaidAndTriedAgain) {
-    UsageBook book("/nonexistent");
+    folder_.write("no_folder", "");
+    UsageBook book(folder_ / "no_folder");
     book.add(&Usage::visits, 1, noon_);
     EXPECT_FALSE(book.go_on(0s));
     EXPECT_TRUE(book.go_on(1s)) << "not due yet";
