@@ -8,8 +8,6 @@
 #include "firmware/built_from.h"
 #include "firmware/destination.h"
 #include "firmware/exhibit/caption.h"
-#include "firmware/exhibit/metrics.h"
-#include "firmware/exhibit/process_age.h"
 #include "firmware/run_summary.h"
 #include "firmware/text_file.h"
 #include "firmware/verbs/run_device.h"
@@ -26,7 +24,6 @@ using namespace std::chrono_literals;
 constexpr Seconds kSlowWarmUp{2.0};  // worth a line
 /// Pictures may take this share of the time; the fluid has the rest.
 constexpr double kRenderShare = 0.4;
-constexpr Instant kReportEvery = 1s;
 constexpr Instant kBlink = 2s;
 constexpr Instant kGuide = 60s;
 /// Turns while nothing is shown.
@@ -67,12 +64,7 @@ bool is_wired(const GpioConfig& gpio) {
 
 }  // namespace
 
-ExhibitRun::ExhibitRun(const RunOptions& options)
-    : options_(options),
-      journal_(make_log_sink()),
-      notify_(ServiceNotify::from_environment()),
-      service_(notify_, watchdog_period()) {
-    if (notify_.listened_to()) outlive_console();
+ExhibitRun::ExhibitRun(const RunOptions& options) : options_(options) {
     prepare_folders(options);
     state_dir_ = state_folder(options);
 }
@@ -83,10 +75,10 @@ int ExhibitRun::play() {
     if (!first_act()) return finish();
 
     show_began_ = clock_.now();
-    service_.heartbeats().expect(Part::Render, show_began_);
-    service_.heartbeats().expect(Part::Config, show_began_);
-    if (hand_->has_device()) service_.heartbeats().expect(Part::Haptic, show_began_);
-    if (panel_) service_.heartbeats().expect(Part::Gpio, show_began_);
+    office_.service().heartbeats().expect(Part::Render, show_began_);
+    office_.service().heartbeats().expect(Part::Config, show_began_);
+    if (hand_->has_device()) office_.service().heartbeats().expect(Part::Haptic, show_began_);
+    if (panel_) office_.service().heartbeats().expect(Part::Gpio, show_began_);
     Instant last = show_began_;
     while (!done()) {
         clock_.sleep_until(last + (is_open_ ? period() : kClosedTurn));
@@ -106,46 +98,39 @@ Instant ExhibitRun::period() const {
     return instant(Seconds(scene_.solver.dt_s));
 }
 
-void ExhibitRun::say(Event event, const std::string& message, const LogSink::Fields& fields) {
-    journal_.say(clock_.now(), event, message, fields);
-}
-
-void ExhibitRun::say_when(Event event, const std::string& message) {
-    const std::string after = fmt::format("{:.2f}", process_age().value_or(clock_.now()).count());
-    say(event, fmt::format("{}, {} s after the start", message, after), {{"EDDY_AFTER_S", after}});
-}
-
 // ---------------------------------------------------------------------------------------------------- the start
 
 void ExhibitRun::look_back() {
-    if (!notify_.listened_to() || state_dir_.empty()) return;  // somebody who tries something out
-    say(Event::Started, fmt::format("eddy {} ({})", EDDY_VERSION, kBuiltFrom));
-    usage_.emplace(state_dir_);
-    usage_->add(&Usage::starts, 1, wall_time());
+    if (!office_.has_manager() || state_dir_.empty()) return;  // somebody who tries something out
+    office_.say(Event::Started, fmt::format("eddy {} ({})", EDDY_VERSION, kBuiltFrom));
+    office_.count_in(state_dir_);
+    office_.count(&Usage::starts);
     ledger_.emplace(state_dir_);
-    verdict_ = ledger_->begin(wall_time(), boot_id());
+    verdict_ = ledger_->begin(std::time(nullptr), boot_id());
     if (verdict_.before == EndBefore::Failed)
-        say(Event::EndedBadly, "the run before this one ended by itself");
+        office_.say(Event::EndedBadly, "the run before this one ended by itself");
     if (verdict_.before == EndBefore::PowerLost) {
-        usage_->add(&Usage::power_cuts, 1, wall_time());
-        say(Event::PowerCut, "the machine went away under the run before this one");
+        office_.count(&Usage::power_cuts);
+        office_.say(Event::PowerCut, "the machine went away under the run before this one");
     }
-    for (const std::string& line : CrashRecord::take_over(state_dir_)) say(Event::Crashed, line);
-    crash_.emplace(state_dir_, journal_.last_lines());
+    for (const std::string& line : CrashRecord::take_over(state_dir_)) office_.say(Event::Crashed, line);
+    crash_.emplace(state_dir_, office_.journal().last_lines());
     if (verdict_.safe)
-        say(Event::SafeMode,
+        office_.say(
+            Event::SafeMode,
             verdict_.asked_for
                 ? fmt::format("safe mode, for there is a file {}", (state_dir_ / "safe").string())
                 : fmt::format("safe mode: {} restarts of the machine within an hour", verdict_.restarts));
     for (const Instant end = clock_.now() + std::chrono::seconds(verdict_.wait_s);
          clock_.now() < end && !asked_to_stop(); std::this_thread::sleep_for(100ms))
-        service_.preparing(clock_.now(), "waiting before another start");
+        office_.service().preparing(clock_.now(), "waiting before another start");
 }
 
 void ExhibitRun::open() {
-    service_.preparing(clock_.now(), "reading the settings");
+    office_.service().preparing(clock_.now(), "reading the settings");
     const bool factory = take_marker(run_folder(options_) / kFactoryMarker);
-    if (factory) say(Event::ConfigFellBack, "the factory's settings, for the button was held at the start");
+    if (factory)
+        office_.say(Event::ConfigFellBack, "the factory's settings, for the button was held at the start");
     intake_.emplace(ConfigIntake::Setup{.folder = options_.config,
                                         .state_dir = state_dir_,
                                         .run_dir = options_.run_dir,
@@ -159,7 +144,7 @@ void ExhibitRun::open() {
     open_hand();
     if (!options_.record.empty()) prepare_folder("--record", options_.record);
     recording_.begin(options_.record);
-    service_.preparing(clock_.now(), "opening the screen");
+    office_.service().preparing(clock_.now(), "opening the screen");
     front_.emplace(
         open_display(exhibit_.display, exhibit_.screen, exhibit_.state_dir), *hand_,
         is_folder(exhibit_.state_dir) ? screen_memory(exhibit_.state_dir) : std::filesystem::path(),
@@ -167,7 +152,7 @@ void ExhibitRun::open() {
     prelude(kGettingReady);
     visitors_.emplace(Seconds(exhibit_.unattended.idle_after_s));
     opening_.emplace(exhibit_.hours);
-    if (!state_dir_.empty() && !usage_) usage_.emplace(state_dir_);
+    if (!state_dir_.empty()) office_.count_in(state_dir_);
     screenshot_.emplace(is_folder(exhibit_.run_dir) ? exhibit_.run_dir : std::filesystem::path());
 }
 
@@ -215,8 +200,8 @@ bool ExhibitRun::first_act() {
         if (!news) continue;
         if (news->began) {
             if (news->prepared > kSlowWarmUp)
-                say(Event::Note, fmt::format("the driver took {:.1f} s to prepare its shaders",
-                                             Seconds(took.now()).count()));
+                office_.say(Event::Note, fmt::format("the driver took {:.1f} s to prepare its shaders",
+                                                     Seconds(took.now()).count()));
             taken(*offer_, clock_.now());
             offer_.reset();
             return true;
@@ -237,11 +222,12 @@ void ExhibitRun::announce(const ConfigOffer& offer) {
 
 bool ExhibitRun::prelude(const std::string& what) {
     const Instant now = clock_.now();
-    service_.preparing(now, what);
+    office_.service().preparing(now, what);
     const bool usable = front_->wait({"Eddy is starting", what + "."}, now);
     if (!first_words_ && front_->has_shown_words()) {
         first_words_ = true;
-        say_when(Event::FirstPicture, "the first words are on " + front_->graphics().display->describe());
+        office_.say_when(Event::FirstPicture,
+                         "the first words are on " + front_->graphics().display->describe());
     }
     shine(now);
     hand_->follow();
@@ -267,6 +253,7 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
     heed_visitors(now);
     heed_settings(now);
     prepare_next(now);
+    heed_hand(now);
     shine(now);
     report(now);
 }
@@ -276,14 +263,15 @@ void ExhibitRun::draw(Instant now) {
     const bool asked = screenshot_->wanted(now);
     if (!first_frame_ && (on_screen || !front_->has_screen())) {
         first_frame_ = true;
-        service_.first_frame(now);
-        say_when(Event::Ready, fmt::format("{} on {}", scene_.title, front_->graphics().display->describe()));
+        office_.service().first_frame(now);
+        office_.say_when(Event::Ready,
+                         fmt::format("{} on {}", scene_.title, front_->graphics().display->describe()));
     }
     if (!asked && (now < frame_due_ || !(on_screen || recording_.on()))) return;
 
     const bool words = !front_->plays() || (guide_until_ && now < *guide_until_);
     const auto show = [&]() -> const gles::Texture& {
-        if (words && front_->plays()) return front_->show_words(guide_page(), now);
+        if (words && front_->plays()) return front_->show_words(office_.guide_page(view()), now);
         if (words) return front_->show_words(kMadeAnew, now);
         return front_->show_act(now, caption_of(*hand_, presence_ == Presence::Leaving));
     };
@@ -291,16 +279,15 @@ void ExhibitRun::draw(Instant now) {
         const gles::Texture& picture = show();
         if (recording_.on() && now >= frame_due_) recording_.add(front_->gpu(), picture);
         if (asked)
-            say(Event::Screenshot, screenshot_->give(picture.size().x, picture.size().y,
-                                                     gles::rgb_from_top(front_->gpu(), picture)));
+            office_.say(Event::Screenshot, screenshot_->give(picture.size().x, picture.size().y,
+                                                             gles::rgb_from_top(front_->gpu(), picture)));
     };
     const RealClock clock;
     if (front_->plays())
         front_->act().beside_the_fluid(work);
     else
         work();
-    if (last_frame_ > Instant(0)) frame_times_.add(now - last_frame_);
-    last_frame_ = now;
+    office_.frame_shown(now);
     const Instant pause = instant(Seconds(clock.now()) * ((1.0 - kRenderShare) / kRenderShare));
     frame_due_ = recording_.on() ? now + std::max(instant(Seconds(1.0 / options_.frames_per_s)), pause)
                                  : clock_.now() + pause;
@@ -316,20 +303,20 @@ void ExhibitRun::heed_panel(Instant now) {
     }
     if (news.guide) guide_until_ = now + kGuide;
     if (news.trouble != trouble_)
-        say(Event::Note, news.trouble.empty() ? "all lines are back" : news.trouble);
+        office_.say(Event::Note, news.trouble.empty() ? "all lines are back" : news.trouble);
     trouble_ = news.trouble;
     if (news.button_stuck && !button_stuck_)
-        say(Event::Note, "the button has been down for a minute: it is ignored until it is let go");
+        office_.say(Event::Note, "the button has been down for a minute: it is ignored until it is let go");
     button_stuck_ = news.button_stuck;
     const auto leave_word = [&](const char* name) {
         try {
             replace_text_file(exhibit_.run_dir / name, "");
         } catch (const std::runtime_error& e) {
-            say(Event::DiskTrouble, e.what());
+            office_.say(Event::DiskTrouble, e.what());
         }
     };
     if (news.shutdown) {
-        say(Event::Stopping, "the button was held for ten seconds: the machine is switched off");
+        office_.say(Event::Stopping, "the button was held for ten seconds: the machine is switched off");
         leave_word(kPowerOff);
         panel_->show(LampCode::ShuttingDown);
         shut_down_ = true;
@@ -340,27 +327,35 @@ void ExhibitRun::heed_panel(Instant now) {
     }
 }
 
+void ExhibitRun::heed_hand(Instant now) {
+    if (front_->plays()) front_->act().adjust_gain();
+    if (const auto cause = hand_->orders().cause_gone(now, hand_->report())) {
+        if (*cause == GateReason::NotFinite && front_->plays()) front_->act().reset();
+        hand_->orders().release_latch();
+    }
+}
+
 void ExhibitRun::heed_visitors(Instant now) {
     if (!hand_->has_device() || !front_->plays() || !is_open_) return;
     const Visitors::News news = visitors_->see(now, front_->act().watch().untouched());
     presence_ = visitors_->presence();
     if (news.came) {
-        say(Event::VisitBegan, "somebody is here");
-        if (usage_) usage_->add(&Usage::visits, 1, wall_time());
+        office_.say(Event::VisitBegan, "somebody is here");
+        office_.count(&Usage::visits);
     }
     if (!news.gone) return;
-    say(Event::VisitEnded, fmt::format("gone after {:.0f} s", news.dwell.count()));
-    if (usage_) usage_->add(&Usage::dwell_s, news.dwell.count(), wall_time());
+    office_.say(Event::VisitEnded, fmt::format("gone after {:.0f} s", news.dwell.count()));
+    office_.count(&Usage::dwell_s, news.dwell.count());
     begin_anew("nobody is here");
 }
 
 void ExhibitRun::heed_hours(Instant now) {
     if (now < look_due_) return;
     look_due_ = now + 1s;
-    const Opening::State& state = opening_->look(wall_time(), clock_sync_.look(ask_kernel()));
+    const Opening::State& state = opening_->look(std::time(nullptr), clock_sync_.look(ask_kernel()));
     if (state.open == is_open_) return;
     is_open_ = state.open;
-    say(is_open_ ? Event::Opened : Event::Closed, describe(state));
+    office_.say(is_open_ ? Event::Opened : Event::Closed, describe(state));
     hand_->orders().allow(is_open_ && !verdict_.safe);
     front_->set_awake(is_open_);
     if (is_open_) begin_anew("it opens");
@@ -368,8 +363,8 @@ void ExhibitRun::heed_hours(Instant now) {
 
 void ExhibitRun::begin_anew(const std::string& why) {
     if (front_->plays()) front_->act().reset();
-    if (usage_) usage_->add(&Usage::resets, 1, wall_time());
-    say(Event::Reset, "the scene begins anew: " + why);
+    office_.count(&Usage::resets);
+    office_.say(Event::Reset, "the scene begins anew: " + why);
 }
 
 // -------------------------------------------------------------------------------------------------- the settings
@@ -378,7 +373,7 @@ void ExhibitRun::heed_settings(Instant now) {
     const std::uint64_t refused = intake_->report().refused;
     std::optional<ConfigOffer> offer = intake_->poll(now);
     if (const ConfigReport& report = intake_->report(); report.refused > refused) {
-        for (const Diagnostic& error : report.errors) say(Event::ConfigRejected, to_string(error));
+        for (const Diagnostic& error : report.errors) office_.say(Event::ConfigRejected, to_string(error));
         blink(LampCode::Rejected, now);
         config_good_ = false;
     }
@@ -398,7 +393,7 @@ void ExhibitRun::take(ConfigOffer offer, Instant now) {
             taken(offer, now);
             return;
         }
-        service_.reloading();
+        office_.service().reloading();
         intake_->building(offer.hash);
         announce(offer);
         offer_ = std::move(offer);
@@ -409,7 +404,7 @@ void ExhibitRun::take(ConfigOffer offer, Instant now) {
 
 /// What is being prepared for the start: nothing plays that should go on meanwhile.
 void ExhibitRun::overtake(ConfigOffer offer) {
-    say(Event::Note, "newer settings came while the fluid was being prepared");
+    office_.say(Event::Note, "newer settings came while the fluid was being prepared");
     intake_->building(offer.hash);
     exhibit_ = with_options(offer.exhibit, options_);
     scene_ = offer.scene.scene;
@@ -420,13 +415,13 @@ void ExhibitRun::overtake(ConfigOffer offer) {
 
 void ExhibitRun::prepare_next(Instant now) {
     if (!front_->preparing()) return;
-    service_.long_work_begins();
+    office_.service().long_work_begins();
     std::optional<Playbill::News> news;
     if (front_->plays())
         front_->act().beside_the_fluid([&] { news = front_->prepare(); });
     else
         news = front_->prepare([this] { return front_->wait(kMadeAnew, clock_.now()) && !asked_to_stop(); });
-    service_.long_work_ends(clock_.now());
+    office_.service().long_work_ends(clock_.now());
     if (!news) return;
     if (!offer_) {  // after a reset of the GPU
         if (!news->began) throw gles::GlError(news->failed);
@@ -434,14 +429,15 @@ void ExhibitRun::prepare_next(Instant now) {
     }
     const ConfigOffer offer = std::move(*offer_);
     offer_.reset();
-    service_.first_frame(now);  // the end of reloading
+    office_.service().first_frame(now);  // the end of reloading
     if (!news->began) {
         refuse(offer, news->failed, now);
         return;
     }
     exhibit_ = with_options(offer.exhibit, options_);
     scene_ = offer.scene.scene;
-    say(Event::Note, fmt::format("the new scene was ready after {:.1f} s of work", news->prepared.count()));
+    office_.say(Event::Note,
+                fmt::format("the new scene was ready after {:.1f} s of work", news->prepared.count()));
     taken(offer, now);
 }
 
@@ -449,22 +445,22 @@ void ExhibitRun::taken(const ConfigOffer& offer, Instant now) {
     intake_->accepted(offer.hash, now);
     apply_live();
     config_good_ = intake_->report().result == ConfigResult::Applied;
-    taken_at_s_ = static_cast<double>(wall_time());
-    journal_.set_config_hash(offer.hash);
+    taken_at_s_ = static_cast<double>(std::time(nullptr));
+    office_.journal().set_config_hash(offer.hash);
     if (offer.source == ConfigSource::LastGood)
-        say(Event::ConfigFellBack, "the last good settings, for those in the folder cannot be used");
+        office_.say(Event::ConfigFellBack, "the last good settings, for those in the folder cannot be used");
     if (!first_frame_) return;
     std::string keys;
     for (const KeyChange& change : offer.changes)
         keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", change.key, change.to);
-    say(Event::ConfigTaken, keys.empty() ? "settings were taken" : "settings were taken: " + keys);
+    office_.say(Event::ConfigTaken, keys.empty() ? "settings were taken" : "settings were taken: " + keys);
     blink(LampCode::Accepted, now);
 }
 
 void ExhibitRun::refuse(const ConfigOffer& offer, const std::string& why, Instant now) {
     intake_->refused(offer.hash, first_line(why));
     config_good_ = false;
-    say(Event::ConfigRejected, first_line(why));
+    office_.say(Event::ConfigRejected, first_line(why));
     blink(LampCode::Rejected, now);
 }
 
@@ -507,104 +503,36 @@ void ExhibitRun::shine(Instant now) {
     hand_->exchange().light.publish(panel_->handle_light());
 }
 
-VitalSigns ExhibitRun::vital_signs() const {
-    VitalSigns signs;
-    signs.state = exhibit_state(facts());
-    signs.opening = describe(opening_->state());
-    signs.clock_synchronised = clock_sync_.synchronised();
-    signs.frames = frame_times_;
-    if (usage_) {
-        signs.total = usage_->total();
-        signs.today = usage_->on(wall_time());
-    }
-    signs.config_good = config_good_;
-    signs.config_taken_at_s = taken_at_s_;
-    signs.config_hash = intake_->report().running_hash;
-    signs.gpu_resets = front_->gpu_resets();
-    signs.temperature_c = temperature_c();
-    return signs;
+Office::View ExhibitRun::view() const {
+    return {.exhibit = exhibit_,
+            .scene = scene_,
+            .settings = intake_->report(),
+            .settings_good = config_good_,
+            .settings_taken_at_s = taken_at_s_,
+            .front = *front_,
+            .hand = *hand_,
+            .opening = *opening_,
+            .clock_sync = clock_sync_,
+            .facts = facts(),
+            .trouble = trouble_};
 }
 
-std::vector<std::string> ExhibitRun::guide_page() const {
-    const VitalSigns signs = vital_signs();
-    const LoopReport& loop = hand_->report();
-    return {fmt::format("Eddy {}: {}", EDDY_VERSION, to_word(signs.state)),
-            fmt::format("Scene: {}. {}.", scene_.title, signs.opening),
-            fmt::format("Handle: {}; {}.", to_string(loop.device), to_string(loop.reason)),
-            fmt::format("Settings: {}{}.", to_word(intake_->report().source),
-                        config_good_ ? "" : "; the newest were refused, see config.json"),
-            fmt::format("Today: {:.0f} visits, {:.0f} faults.", signs.today.visits, signs.today.faults),
-            trouble_.empty() ? "Button and lamps: well." : "Button and lamps: " + first_line(trouble_),
-            "Click: back to the show. Ten seconds: switch off."};
-}
-
-void ExhibitRun::tell_of_hand() {
-    const LoopReport& loop = hand_->report();
-    if (hand_->has_device() && loop.device != device_) {
-        const bool ready = loop.device == HapticState::Ready;
-        if (ready || device_ == HapticState::Ready || loop.device == HapticState::Fault) {
-            say(ready ? Event::DeviceFound : Event::DeviceLost,
-                fmt::format("the hand's device is {}", to_string(loop.device)));
-            if (!ready && usage_) usage_->add(&Usage::faults, 1, wall_time());
-        }
-        device_ = loop.device;
-    }
-    if (loop.reason != force_) {
-        const auto grave = {GateReason::Stopped, GateReason::DeviceSilent, GateReason::NotFinite};
-        if (std::find(grave.begin(), grave.end(), loop.reason) != grave.end())
-            say(Event::ForceOff, std::string(to_string(loop.reason)));
-        force_ = loop.reason;
-    }
-}
-
-void ExhibitRun::report(Instant now) {
-    if (front_->plays()) {
-        front_->act().adjust_gain();
-        for (const std::string& line : front_->act().news()) say(Event::QualityChanged, line);
-    }
-    if (const auto news = hand_->flight_news()) say(Event::FlightKept, *news);
-    if (const auto news = front_->news()) say(Event::Note, *news);
-    tell_of_hand();
-    if (const auto cause = hand_->orders().cause_gone(now, hand_->report())) {
-        if (*cause == GateReason::NotFinite && front_->plays()) front_->act().reset();
-        hand_->orders().release_latch();
-    }
-    Heartbeats& beats = service_.heartbeats();
+void ExhibitRun::report(Instant now, bool finally) {
+    office_.tell_news(*front_, *hand_);
+    Heartbeats& beats = office_.service().heartbeats();
     beats.see(Part::Render, turns_, now);
     beats.see(Part::Config, turns_, now);
     beats.see(Part::Haptic, hand_->report().ticks, now);
     if (panel_) beats.see(Part::Gpio, panel_->beats(), now);
-    service_.go_on(now);
-    if (now >= report_due_) write_report(now);
-}
-
-void ExhibitRun::write_report(Instant now) {
-    report_due_ = now + kReportEvery;
-    journal_.go_on(now);
+    office_.service().go_on(now);
+    if (!office_.report(now, view(), finally)) return;
     if (options_.seconds && front_->plays())
         progress_.show(Seconds(now - show_began_).count(), *options_.seconds,
                        fmt::format("{} fluid steps", front_->act().show().figures().steps));
-    if (usage_) {
-        if (hand_->report().reason == GateReason::Open)
-            usage_->add(&Usage::force_s, Seconds(kReportEvery).count(), wall_time());
-        if (!usage_->go_on(now)) say(Event::DiskTrouble, "the usage counts could not be written");
-    }
-    if (!front_->plays()) return;
-    Status status = status_of(front_->act(), front_->graphics(), *hand_);
-    status.uptime_s = Seconds(now).count();
-    status.vital_signs = vital_signs();
-    service_.say(now, fmt::format("{}, {:.0f} steps/s, force: {}", to_word(status.vital_signs.state),
-                                  status.cost.steps_per_s, to_word(hand_->report().reason)));
-    if (is_folder(exhibit_.run_dir)) {
-        write_status(exhibit_.run_dir / "status.json", status);
-        const std::string& metrics = exhibit_.unattended.metrics_file;
-        write_metrics(metrics.empty() ? exhibit_.run_dir / "eddy.prom" : std::filesystem::path(metrics),
-                      status);
-    }
 }
 
 int ExhibitRun::finish() {
-    service_.stopping();
+    office_.service().stopping();
     if (hand_) hand_->end();  // with zero force, before anything else is said
     if (hand_) hand_->follow([this](std::span<const TickRecord> ticks) { recording_.add(ticks); });
     if (intake_) intake_->stopped();
@@ -614,15 +542,13 @@ int ExhibitRun::finish() {
     recording_.finish();
     if (front_ && front_->plays()) {
         hand_->finish_flights();
-        report(now);
-        write_report(now);
-        if (const auto complaint = hand_->complaint()) say(Event::Note, *complaint);
+        report(now, true);
+        if (const auto complaint = hand_->complaint()) office_.say(Event::Note, *complaint);
         const double show_s = Seconds(now - show_began_).count();
         print_summary({"real", show_s, Seconds(now - hand_began_).count(), show_s}, front_->act(),
                       front_->graphics(), *hand_, recording_.recorder());
     }
-    if (usage_) usage_->write();
-    journal_.flush();
+    office_.close();
     if (lost_) return kExitForRestart;
     return recording_.failed() ? 1 : 0;
 }

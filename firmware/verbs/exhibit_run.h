@@ -1,26 +1,20 @@
 #pragma once
-#include <ctime>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "firmware/exhibit/clock_sync.h"
 #include "firmware/exhibit/config_intake.h"
 #include "firmware/exhibit/crash_record.h"
-#include "firmware/exhibit/exhibit_state.h"
 #include "firmware/exhibit/front.h"
 #include "firmware/exhibit/hand_side.h"
-#include "firmware/exhibit/journal.h"
+#include "firmware/exhibit/office.h"
 #include "firmware/exhibit/opening_hours.h"
 #include "firmware/exhibit/panel.h"
 #include "firmware/exhibit/screenshot.h"
-#include "firmware/exhibit/service.h"
 #include "firmware/exhibit/start_ledger.h"
-#include "firmware/exhibit/usage.h"
 #include "firmware/exhibit/visitors.h"
 #include "firmware/progress.h"
 #include "firmware/recording.h"
-#include "firmware/status.h"
 #include "firmware/verbs/verbs.h"
 
 namespace eddy {
@@ -54,6 +48,7 @@ class ExhibitRun {
     void turn(Instant now, Seconds since_last);
     void draw(Instant now);
     void heed_panel(Instant now);
+    void heed_hand(Instant now);
     void heed_visitors(Instant now);
     void heed_hours(Instant now);
     void heed_settings(Instant now);
@@ -66,27 +61,18 @@ class ExhibitRun {
     void begin_anew(const std::string& why);
     void shine(Instant now);
     void blink(LampCode code, Instant now);
-    void tell_of_hand();
-    void report(Instant now);
-    void write_report(Instant now);
+    void report(Instant now, bool finally = false);
     int finish();
 
     bool done() const;
     Instant period() const;
     ExhibitFacts facts() const;
-    VitalSigns vital_signs() const;
-    std::vector<std::string> guide_page() const;
-    void say(Event event, const std::string& message, const LogSink::Fields& fields = {});
-    /// With the seconds since the program's start.
-    void say_when(Event event, const std::string& message);
-    std::time_t wall_time() const { return std::time(nullptr); }
+    Office::View view() const;
 
     RunOptions options_;
     RealClock clock_;
+    Office office_{clock_};
     std::filesystem::path state_dir_;  ///< as it was at the start; empty: nothing outlives this run
-    Journal journal_;
-    ServiceNotify notify_;
-    Service service_;
     std::optional<StartLedger> ledger_;
     StartLedger::Verdict verdict_;
     std::optional<ConfigIntake> intake_;
@@ -106,9 +92,7 @@ class ExhibitRun {
     std::optional<Visitors> visitors_;
     std::optional<Opening> opening_;
     ClockSync clock_sync_;
-    std::optional<UsageBook> usage_;
     std::optional<Screenshot> screenshot_;
-    FrameTimes frame_times_;
 
     Instant hand_began_{0}, show_began_{0};
     bool first_words_ = false, first_frame_ = false;
@@ -118,11 +102,9 @@ class ExhibitRun {
     Presence presence_ = Presence::Nobody;
     std::string trouble_;  ///< of the panel
     bool button_stuck_ = false;
-    HapticState device_ = HapticState::Absent;  ///< as told last
-    GateReason force_ = GateReason::Disabled;   ///< so far
     std::optional<Instant> guide_until_, blink_until_;
     LampCode blink_ = LampCode::Accepted;
-    Instant frame_due_{0}, report_due_{0}, look_due_{0}, last_frame_{0};
+    Instant frame_due_{0}, look_due_{0};
     std::uint64_t turns_ = 0;
     double taken_at_s_ = 0.0;
     bool config_good_ = true;
