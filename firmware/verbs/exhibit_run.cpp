@@ -54,10 +54,6 @@ bool take_marker(const std::filesystem::path& file) {
     return std::filesystem::remove(file, error);
 }
 
-std::string first_line(const std::string& text) {
-    return text.substr(0, text.find('\n'));
-}
-
 bool is_wired(const GpioConfig& gpio) {
     return !(gpio.button + gpio.stop + gpio.lamp_green + gpio.lamp_amber + gpio.lamp_red).empty();
 }
@@ -95,7 +91,7 @@ bool ExhibitRun::done() const {
 }
 
 Instant ExhibitRun::period() const {
-    return instant(Seconds(scene_.solver.dt_s));
+    return instant(Seconds(settings_->scene().solver.dt_s));
 }
 
 // ---------------------------------------------------------------------------------------------------- the start
@@ -131,55 +127,40 @@ void ExhibitRun::open() {
     const bool factory = take_marker(run_folder(options_) / kFactoryMarker);
     if (factory)
         office_.say(Event::ConfigFellBack, "the factory's settings, for the button was held at the start");
-    intake_.emplace(ConfigIntake::Setup{.folder = options_.config,
-                                        .state_dir = state_dir_,
-                                        .run_dir = options_.run_dir,
-                                        .orders = {options_.scene, options_.set},
-                                        .factory_only = verdict_.safe || factory});
-    choose(intake_->start());
-    if (is_wired(exhibit_.gpio)) {
+    settings_.emplace(options_,
+                      ConfigIntake::Setup{.folder = options_.config,
+                                          .state_dir = state_dir_,
+                                          .run_dir = options_.run_dir,
+                                          .orders = {options_.scene, options_.set},
+                                          .factory_only = verdict_.safe || factory},
+                      office_, clock_);
+    const Exhibit& exhibit = settings_->exhibit();
+    if (is_wired(exhibit.gpio)) {
         gpio_ = make_real_gpio();
-        panel_.emplace(*gpio_, exhibit_.gpio);
+        panel_.emplace(*gpio_, exhibit.gpio);
     }
     open_hand();
     if (!options_.record.empty()) prepare_folder("--record", options_.record);
     recording_.begin(options_.record);
     office_.service().preparing(clock_.now(), "opening the screen");
-    front_.emplace(
-        open_display(exhibit_.display, exhibit_.screen, exhibit_.state_dir), *hand_,
-        is_folder(exhibit_.state_dir) ? screen_memory(exhibit_.state_dir) : std::filesystem::path(),
-        exhibit_.screen.max_pixels);
+    front_.emplace(open_display(exhibit.display, exhibit.screen, exhibit.state_dir), *hand_,
+                   is_folder(exhibit.state_dir) ? screen_memory(exhibit.state_dir) : std::filesystem::path(),
+                   exhibit.screen.max_pixels);
     prelude(kGettingReady);
-    visitors_.emplace(Seconds(exhibit_.unattended.idle_after_s));
-    opening_.emplace(exhibit_.hours);
+    visitors_.emplace(Seconds(exhibit.unattended.idle_after_s));
+    opening_.emplace(exhibit.hours);
     if (!state_dir_.empty()) office_.count_in(state_dir_);
-    screenshot_.emplace(is_folder(exhibit_.run_dir) ? exhibit_.run_dir : std::filesystem::path());
+    screenshot_.emplace(is_folder(exhibit.run_dir) ? exhibit.run_dir : std::filesystem::path());
 }
 
 void ExhibitRun::open_hand() {
-    RunDevice device = make_device(options_, exhibit_);
-    hand_.emplace(std::move(device.device), std::move(device.name), loop_settings(exhibit_),
-                  flights_folder(exhibit_), panel_ ? &panel_->stop_input() : nullptr);
-    hand_->orders().set_ceiling(exhibit_.max_force_n);
+    const Exhibit& exhibit = settings_->exhibit();
+    RunDevice device = make_device(options_, exhibit);
+    hand_.emplace(std::move(device.device), std::move(device.name), loop_settings(exhibit),
+                  flights_folder(exhibit), panel_ ? &panel_->stop_input() : nullptr);
+    hand_->orders().set_ceiling(exhibit.max_force_n);
     hand_->orders().allow(!verdict_.safe);
     if (crash_) crash_->watch(hand_->flights());
-}
-
-/// Settings from a file that no run can carry out are as bad as those that cannot be read; orders of the command line end it.
-void ExhibitRun::choose(ConfigOffer offer) {
-    for (;;) {
-        exhibit_ = with_options(offer.exhibit, options_);
-        scene_ = offer.scene.scene;
-        try {
-            require_possible(options_, exhibit_, scene_);
-            offer_ = std::move(offer);
-            return;
-        } catch (const std::exception& e) {
-            if (offer.source == ConfigSource::Factory) throw;
-            refuse(offer, e.what(), clock_.now());
-            offer = intake_->start();
-        }
-    }
 }
 
 bool ExhibitRun::first_act() {
@@ -188,36 +169,20 @@ bool ExhibitRun::first_act() {
     hand_->start(clock_);
     while (!asked_to_stop() && !lost_) {
         lost_ = front_->poll(clock_.now()) == DisplayState::Lost;
-        heed_settings(clock_.now());
-        if (!std::exchange(announced_, true)) {
-            intake_->building(offer_->hash);
-            announce(*offer_);
-        }
+        heed_settings();
         const auto news = front_->prepare([this] {
-            heed_settings(clock_.now());
-            return prelude(kGettingReady) && announced_;
+            settings_->heed();
+            obey_settings();
+            return prelude(kGettingReady) && !settings_->wants_another_act();
         });
         if (!news) continue;
-        if (news->began) {
-            if (news->prepared > kSlowWarmUp)
-                office_.say(Event::Note, fmt::format("the driver took {:.1f} s to prepare its shaders",
-                                                     Seconds(took.now()).count()));
-            taken(*offer_, clock_.now());
-            offer_.reset();
-            return true;
-        }
-        if (offer_->source == ConfigSource::Factory) throw gles::GlError(news->failed);
-        refuse(*offer_, news->failed, clock_.now());
-        choose(intake_->start());
-        announced_ = false;
+        follow(*news);
+        if (news->began && news->prepared > kSlowWarmUp)
+            office_.say(Event::Note, fmt::format("the driver took {:.1f} s to prepare its shaders",
+                                                 Seconds(took.now()).count()));
+        if (news->began) return true;
     }
     return false;
-}
-
-void ExhibitRun::announce(const ConfigOffer& offer) {
-    const Scene& scene = offer.scene.scene;
-    front_->announce(scene, act_setup(options_, with_options(offer.exhibit, options_), scene,
-                                      recording_.on() || front_->has_screen(), hand_->has_device()));
 }
 
 bool ExhibitRun::prelude(const std::string& what) {
@@ -251,8 +216,8 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
     heed_panel(now);
     heed_hours(now);
     heed_visitors(now);
-    heed_settings(now);
-    prepare_next(now);
+    heed_settings();
+    prepare_next();
     heed_hand(now);
     shine(now);
     report(now);
@@ -264,8 +229,8 @@ void ExhibitRun::draw(Instant now) {
     if (!first_frame_ && (on_screen || !front_->has_screen())) {
         first_frame_ = true;
         office_.service().first_frame(now);
-        office_.say_when(Event::Ready,
-                         fmt::format("{} on {}", scene_.title, front_->graphics().display->describe()));
+        office_.say_when(Event::Ready, fmt::format("{} on {}", settings_->scene().title,
+                                                   front_->graphics().display->describe()));
     }
     if (!asked && (now < frame_due_ || !(on_screen || recording_.on()))) return;
 
@@ -310,7 +275,7 @@ void ExhibitRun::heed_panel(Instant now) {
     button_stuck_ = news.button_stuck;
     const auto leave_word = [&](const char* name) {
         try {
-            replace_text_file(exhibit_.run_dir / name, "");
+            replace_text_file(settings_->exhibit().run_dir / name, "");
         } catch (const std::runtime_error& e) {
             office_.say(Event::DiskTrouble, e.what());
         }
@@ -369,51 +334,23 @@ void ExhibitRun::begin_anew(const std::string& why) {
 
 // -------------------------------------------------------------------------------------------------- the settings
 
-void ExhibitRun::heed_settings(Instant now) {
-    const std::uint64_t refused = intake_->report().refused;
-    std::optional<ConfigOffer> offer = intake_->poll(now);
-    if (const ConfigReport& report = intake_->report(); report.refused > refused) {
-        for (const Diagnostic& error : report.errors) office_.say(Event::ConfigRejected, to_string(error));
-        blink(LampCode::Rejected, now);
-        config_good_ = false;
-    }
-    if (offer) take(std::move(*offer), now);
+void ExhibitRun::heed_settings() {
+    settings_->heed();
+    obey_settings();
+    if (!settings_->wants_another_act()) return;
+    const auto [exhibit, scene] = settings_->announce();
+    front_->announce(scene, act_setup(options_, exhibit, scene, recording_.on() || front_->has_screen(),
+                                      hand_->has_device()));
 }
 
-void ExhibitRun::take(ConfigOffer offer, Instant now) {
-    const Exhibit exhibit = with_options(offer.exhibit, options_);
-    try {
-        require_possible(options_, exhibit, offer.scene.scene);
-        if (intake_->report().running_hash.empty()) {
-            overtake(std::move(offer));
-            return;
-        }
-        if (!offer.needs_new_scene()) {
-            exhibit_ = exhibit;
-            taken(offer, now);
-            return;
-        }
-        office_.service().reloading();
-        intake_->building(offer.hash);
-        announce(offer);
-        offer_ = std::move(offer);
-    } catch (const std::exception& e) {
-        refuse(offer, e.what(), now);
-    }
+void ExhibitRun::obey_settings() {
+    const RunSettings::News news = settings_->news();
+    if (news.apply) apply_live();
+    if (news.taken) blink(LampCode::Accepted);
+    if (news.refused) blink(LampCode::Rejected);
 }
 
-/// What is being prepared for the start: nothing plays that should go on meanwhile.
-void ExhibitRun::overtake(ConfigOffer offer) {
-    office_.say(Event::Note, "newer settings came while the fluid was being prepared");
-    intake_->building(offer.hash);
-    exhibit_ = with_options(offer.exhibit, options_);
-    scene_ = offer.scene.scene;
-    if (offer.needs_new_scene()) announced_ = false;
-    offer_ = std::move(offer);
-    apply_live();
-}
-
-void ExhibitRun::prepare_next(Instant now) {
+void ExhibitRun::prepare_next() {
     if (!front_->preparing()) return;
     office_.service().long_work_begins();
     std::optional<Playbill::News> news;
@@ -422,53 +359,23 @@ void ExhibitRun::prepare_next(Instant now) {
     else
         news = front_->prepare([this] { return front_->wait(kMadeAnew, clock_.now()) && !asked_to_stop(); });
     office_.service().long_work_ends(clock_.now());
-    if (!news) return;
-    if (!offer_) {  // after a reset of the GPU
-        if (!news->began) throw gles::GlError(news->failed);
-        return;
-    }
-    const ConfigOffer offer = std::move(*offer_);
-    offer_.reset();
-    office_.service().first_frame(now);  // the end of reloading
-    if (!news->began) {
-        refuse(offer, news->failed, now);
-        return;
-    }
-    exhibit_ = with_options(offer.exhibit, options_);
-    scene_ = offer.scene.scene;
-    office_.say(Event::Note,
-                fmt::format("the new scene was ready after {:.1f} s of work", news->prepared.count()));
-    taken(offer, now);
+    if (news) follow(*news);
 }
 
-void ExhibitRun::taken(const ConfigOffer& offer, Instant now) {
-    intake_->accepted(offer.hash, now);
-    apply_live();
-    config_good_ = intake_->report().result == ConfigResult::Applied;
-    taken_at_s_ = static_cast<double>(std::time(nullptr));
-    office_.journal().set_config_hash(offer.hash);
-    if (offer.source == ConfigSource::LastGood)
-        office_.say(Event::ConfigFellBack, "the last good settings, for those in the folder cannot be used");
-    if (!first_frame_) return;
-    std::string keys;
-    for (const KeyChange& change : offer.changes)
-        keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", change.key, change.to);
-    office_.say(Event::ConfigTaken, keys.empty() ? "settings were taken" : "settings were taken: " + keys);
-    blink(LampCode::Accepted, now);
-}
-
-void ExhibitRun::refuse(const ConfigOffer& offer, const std::string& why, Instant now) {
-    intake_->refused(offer.hash, first_line(why));
-    config_good_ = false;
-    office_.say(Event::ConfigRejected, first_line(why));
-    blink(LampCode::Rejected, now);
+void ExhibitRun::follow(const Playbill::News& news) {
+    if (news.began)
+        settings_->began(news.prepared);
+    else
+        settings_->failed(news.failed);
+    obey_settings();
 }
 
 void ExhibitRun::apply_live() {
-    hand_->orders().set_ceiling(exhibit_.max_force_n);
-    if (front_->plays()) front_->act().show_cost(exhibit_.overlay == OverlayChoice::Cost);
-    visitors_->set_idle_after(Seconds(exhibit_.unattended.idle_after_s));
-    opening_.emplace(exhibit_.hours);
+    const Exhibit& exhibit = settings_->exhibit();
+    hand_->orders().set_ceiling(exhibit.max_force_n);
+    if (front_->plays()) front_->act().show_cost(exhibit.overlay == OverlayChoice::Cost);
+    visitors_->set_idle_after(Seconds(exhibit.unattended.idle_after_s));
+    opening_.emplace(exhibit.hours);
     look_due_ = Instant(0);
 }
 
@@ -483,15 +390,14 @@ ExhibitFacts ExhibitRun::facts() const {
             .device = loop.device,
             .force = loop.reason,
             .presence = presence_,
-            .has_screen = exhibit_.display == DisplayChoice::Headless || front_->has_screen() ||
-                          exhibit_.display == DisplayChoice::Auto,
+            .has_screen = settings_->exhibit().display != DisplayChoice::Kms || front_->has_screen(),
             .button_stuck = button_stuck_ || !trouble_.empty(),
-            .fell_back = intake_->report().source == ConfigSource::LastGood};
+            .fell_back = settings_->report().source == ConfigSource::LastGood};
 }
 
-void ExhibitRun::blink(LampCode code, Instant now) {
+void ExhibitRun::blink(LampCode code) {
     blink_ = code;
-    blink_until_ = now + kBlink;
+    blink_until_ = clock_.now() + kBlink;
 }
 
 void ExhibitRun::shine(Instant now) {
@@ -504,11 +410,11 @@ void ExhibitRun::shine(Instant now) {
 }
 
 Office::View ExhibitRun::view() const {
-    return {.exhibit = exhibit_,
-            .scene = scene_,
-            .settings = intake_->report(),
-            .settings_good = config_good_,
-            .settings_taken_at_s = taken_at_s_,
+    return {.exhibit = settings_->exhibit(),
+            .scene = settings_->scene(),
+            .settings = settings_->report(),
+            .settings_good = settings_->good(),
+            .settings_taken_at_s = settings_->taken_at_s(),
             .front = *front_,
             .hand = *hand_,
             .opening = *opening_,
@@ -535,7 +441,7 @@ int ExhibitRun::finish() {
     office_.service().stopping();
     if (hand_) hand_->end();  // with zero force, before anything else is said
     if (hand_) hand_->follow([this](std::span<const TickRecord> ticks) { recording_.add(ticks); });
-    if (intake_) intake_->stopped();
+    if (settings_) settings_->stopped();
     if (ledger_ && !lost_) ledger_->end_well();
     const Instant now = clock_.now();
     progress_.finish();

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "firmware/exhibit/config_intake.h"
 #include "firmware/exhibit/crash_record.h"
 #include "firmware/exhibit/front.h"
 #include "firmware/exhibit/hand_side.h"
@@ -15,6 +14,7 @@
 #include "firmware/exhibit/visitors.h"
 #include "firmware/progress.h"
 #include "firmware/recording.h"
+#include "firmware/verbs/run_settings.h"
 #include "firmware/verbs/verbs.h"
 
 namespace eddy {
@@ -36,8 +36,6 @@ class ExhibitRun {
     /// The first settings of which a show can be made: panel, hand and screen as they say.
     void open();
     void open_hand();
-    void choose(ConfigOffer offer);
-    void announce(const ConfigOffer& offer);
     /// Until the first act plays. False: told to stop meanwhile.
     bool first_act();
     /// While there is nothing to play yet, as often as one likes: says on the screen, and to the service manager, what takes so
@@ -51,16 +49,16 @@ class ExhibitRun {
     void heed_hand(Instant now);
     void heed_visitors(Instant now);
     void heed_hours(Instant now);
-    void heed_settings(Instant now);
-    void take(ConfigOffer offer, Instant now);
-    void overtake(ConfigOffer offer);
-    void taken(const ConfigOffer& offer, Instant now);
-    void refuse(const ConfigOffer& offer, const std::string& why, Instant now);
-    void prepare_next(Instant now);
+    void heed_settings();
+    /// What came of them, at once: in the middle of preparing an act, too.
+    void obey_settings();
+    void prepare_next();
+    /// What became of the act that was announced.
+    void follow(const Playbill::News& news);
     void apply_live();
     void begin_anew(const std::string& why);
     void shine(Instant now);
-    void blink(LampCode code, Instant now);
+    void blink(LampCode code);
     void report(Instant now, bool finally = false);
     int finish();
 
@@ -75,11 +73,7 @@ class ExhibitRun {
     std::filesystem::path state_dir_;  ///< as it was at the start; empty: nothing outlives this run
     std::optional<StartLedger> ledger_;
     StartLedger::Verdict verdict_;
-    std::optional<ConfigIntake> intake_;
-    std::optional<ConfigOffer> offer_;  ///< that is being built
-    bool announced_ = false;            ///< the first that is
-    Exhibit exhibit_;
-    Scene scene_;
+    std::optional<RunSettings> settings_;
 
     std::unique_ptr<Gpio> gpio_;
     std::optional<Panel> panel_;
@@ -106,8 +100,6 @@ class ExhibitRun {
     LampCode blink_ = LampCode::Accepted;
     Instant frame_due_{0}, look_due_{0};
     std::uint64_t turns_ = 0;
-    double taken_at_s_ = 0.0;
-    bool config_good_ = true;
 };
 
 }  // namespace eddy
