@@ -37,6 +37,7 @@ CLI::Validator number_from(double low, double high);
 void add_set(CLI::App& verb, std::vector<std::string>& set);
 
 /// --config, of verbs that read an exhibit's settings.
-void add_config(CLI::App& verb, std::string& folder, const std::string& help);
+void add_config(CLI::App& verb, std::string& folder,
+                const std::string& help = "the exhibit's settings are in this folder");
 
 }  // namespace eddy

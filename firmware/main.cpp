@@ -86,7 +86,7 @@ struct CommandLine {
         print->add_flag("--exhibit-keys", print_exhibit_keys,
                         "the same for the exhibit's settings, and when a new value takes effect");
         print->add_flag("--exhibit-schema", print_exhibit_schema, "the same as a JSON Schema, for editors");
-        add_config(*print, print_folder, "the exhibit's settings are in this folder");
+        add_config(*print, print_folder);
     }
 
     void add_run() {
@@ -97,7 +97,7 @@ struct CommandLine {
         verb->option_defaults()->take_last();  // script/run gives defaults that the user's options follow
         verb->add_option("--scene", run.scene, "shipped scene or file (print-config lists all keys)");
         add_set(*verb, run.set);
-        add_config(*verb, run.config, "the exhibit's settings are in this folder");
+        add_config(*verb, run.config);
         choose(*verb->add_option("--display", run.display, "where the picture goes"),
                words_of(DisplayChoice{}));
         choose(*verb->add_option("--haptics", run.haptics, "what the hand holds"), words_of(HapticsChoice{}));
@@ -142,6 +142,7 @@ struct CommandLine {
         verb->option_defaults()->take_last();
         verb->add_option("SCENE,--scene", tune.scene, "shipped scene or file [that of the exhibit]");
         add_set(*verb, tune.set);
+        add_config(*verb, tune.config);
         verb->add_option("--state-dir", tune.state_dir,
                          "folder for the result, as tuning-jet.json [that of the exhibit]");
         verb->add_flag("--show", tune.show, "print what is kept there of this scene, and stop");
@@ -156,13 +157,15 @@ struct CommandLine {
         verb->add_option("--firmware", falcon.firmware,
                          "firmware image for a cold device [falcon.firmware of the exhibit]");
         verb->add_option("--serial", falcon.serial, "the one with this serial string [falcon.serial]");
+        add_config(*verb, falcon.config);
         verb->add_option("--seconds", falcon.seconds, "how long to look at it")
             ->check(number_from(0.1, 86400.0))
             ->capture_default_str();
         calibrate = verb->add_subcommand(
             "calibrate",
             "The motors hold the handle, empty and with a weight; prints falcon.motor_units_per_nm for\n"
-            "/etc/eddy/conf.d. The Falcon stands upright and nobody touches the handle; a minute");
+            "conf.d of the exhibit's settings. The Falcon stands upright and nobody touches the handle; a "
+            "minute");
         calibrate->add_option("--weight-g", falcon.weight_g, "mass of the weight")
             ->check(number_from(20.0, 400.0))
             ->capture_default_str();

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 using falcon::Calibration;
 
 FalconConfig config_for(const FalconOptions& options) {
-    FalconConfig config = load_exhibit().exhibit.falcon;
+    FalconConfig config = load_exhibit(options.config).exhibit.falcon;
     if (options.firmware) config.firmware = *options.firmware;
     if (options.serial) config.serial = *options.serial;
     return config;
@@ -150,7 +150,8 @@ int calibrate_falcon(const FalconOptions& options) {
     fmt::print("# measured with {:g} g; the halves of the measurement are {:.1f} % of it apart\n",
                options.weight_g, calibration.spread() * 100.0);
     fmt::print("[falcon]\nmotor_units_per_nm = {:.0f}\n", calibration.motor_units_per_nm());
-    fmt::print(stderr, "falcon: write the lines above into a file in /etc/eddy/conf.d\n");
+    fmt::print(stderr, "falcon: write the lines above into a file in {}\n",
+               (std::filesystem::path(options.config) / "conf.d").string());
     return 0;
 }
 

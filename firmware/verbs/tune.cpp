@@ -46,7 +46,7 @@ Tuning stored_in(const std::filesystem::path& file) {
 }  // namespace
 
 int tune(const TuneOptions& options) {
-    const Exhibit exhibit = load_exhibit().exhibit;
+    const Exhibit exhibit = load_exhibit(options.config).exhibit;
     const std::string& name = options.scene.empty() ? exhibit.scene : options.scene;
     const Scene scene = load_scene(name, options.set).scene;
     const std::filesystem::path folder =

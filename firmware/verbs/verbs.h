@@ -115,7 +115,8 @@ struct RunOptions {
 int run(const RunOptions& options);
 
 struct TuneOptions {
-    std::string scene;  ///< empty: what the exhibit's configuration says
+    std::string config = kConfigFolder;  ///< folder of the exhibit's settings
+    std::string scene;                   ///< empty: what the exhibit's configuration says
     std::vector<std::string> set;
     std::string state_dir;  ///< where the result is kept; empty: from the configuration; made if need be
     bool show = false;      ///< print what is stored, and stop
@@ -124,6 +125,7 @@ struct TuneOptions {
 int tune(const TuneOptions& options);
 
 struct FalconOptions {
+    std::string config = kConfigFolder;   ///< folder of the exhibit's settings
     std::optional<std::string> firmware;  ///< in place of the exhibit's
     std::optional<std::string> serial;
     double seconds = 5.0;     ///< how long to look at it once it is found and loaded

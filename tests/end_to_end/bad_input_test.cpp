@@ -156,6 +156,12 @@ TEST_F(BadInput, OfAHandThatCannotBeIsSaidSo) {
 TEST_F(BadInput, AboutTheFalconIsNamed) {
     expect_refused({"falcon", "--firmware", scene}, {"falcon.firmware", scene, "AA 08"});
     expect_refused({"falcon", "--firmware", missing + "/image.bin"}, {"falcon.firmware", missing});
+    const ScratchFolder etc;
+    etc.write("exhibit.toml", "[falcon]\nfirmware = \"" + missing + "/settings.bin\"\n");
+    expect_refused({"falcon", "--config", etc.path()}, {"falcon.firmware", missing + "/settings.bin"});
+    etc.write("exhibit.toml", "[falcon]\nserail = \"F\"\n");
+    expect_refused({"falcon", "--config", etc.path()}, {"exhibit.toml:2:1", "nearest valid key: serial"});
+    expect_refused({"tune", "--config", etc.path()}, {"exhibit.toml:2:1", "nearest valid key: serial"});
     expect_refused({"panel", "--code", "blink"}, {"--code", "blink", "degraded"});
     expect_refused({"panel", "--code", "show", "--codes"}, {"--codes", "--code"});
     expect_refused({"falcon", "--seconds", "3", "calibrate"}, {"--seconds", "calibrate"});

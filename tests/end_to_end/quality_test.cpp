@@ -22,6 +22,15 @@ nlohmann::json read_json(const std::string& file) {
     return nlohmann::json::parse(read_all(file));
 }
 
+TEST(Tune, TakesSceneAndFolderFromTheExhibitsSettings) {
+    const ScratchFolder etc, state;
+    etc.write("exhibit.toml", "scene = \"float\"\nstate_dir = \"" + state.path().string() + "\"\n");
+    const Ended ended = eddy({"tune", "--show", "--config", etc.path()});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_EQ(ended.err,
+              state / "tuning-float.json" + ": there is no tuning of this scene yet; run eddy tune first\n");
+}
+
 TEST(Tune, KeepsItsChoiceWithTheEvidenceAndTheExhibitBeginsWithIt) {
     const ScratchFolder state, run;
     // Little time, so that little is tried.

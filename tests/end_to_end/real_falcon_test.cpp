@@ -67,6 +67,11 @@ TEST_F(RealFalcon, IsMissedWithAWordAndExitStatusOne) {
     const Ended ended = eddy_with("warm", {"falcon", "--serial", "NOTTHIS1", "--seconds", "1"});
     EXPECT_EQ(ended.status, 1);
     EXPECT_THAT(ended.out, HasSubstr("not the one with the serial asked for"));
+    const ScratchFolder etc;
+    etc.write("exhibit.toml", "[falcon]\nserial = \"NOTTHIS1\"\n");
+    const Ended by_file = eddy_with("warm", {"falcon", "--config", etc.path(), "--seconds", "1"});
+    EXPECT_EQ(by_file.status, 1);
+    EXPECT_THAT(by_file.out, HasSubstr("not the one with the serial asked for"));
 }
 
 TEST_F(RealFalcon, MovesTheBodyOfTheExhibitWhenItIsPluggedIn) {
