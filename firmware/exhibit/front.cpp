@@ -30,7 +30,7 @@ void Front::make() {
 }
 
 void Front::announce(const Scene& scene, Act::Setup setup) {
-    last_ = {scene, setup};
+    next_ = {scene, setup};
     Scene shaped = scene;
     if (const auto window = screen_->size_px()) {
         const SizePx size = picture_size(*window, most_px_);
@@ -38,6 +38,16 @@ void Front::announce(const Scene& scene, Act::Setup setup) {
         shaped.render.height_px = size.height;
     }
     playbill_->announce(shaped, std::move(setup));
+}
+
+std::optional<Playbill::News> Front::prepare(const std::function<bool()>& meanwhile) {
+    auto news = playbill_->work(meanwhile);
+    if (!news) return news;
+    if (news->began) playing_ = next_;
+    next_.reset();
+    // The act that played went with a reset, and what was to follow it cannot be made.
+    if (!plays() && playing_) announce(playing_->scene, playing_->setup);
+    return news;
 }
 
 DisplayState Front::poll(Instant now) {
@@ -55,7 +65,7 @@ void Front::recover() {
     screen_.reset();
     graphics_ = open_again(std::move(graphics_));
     make();
-    if (last_) announce(last_->scene, last_->setup);
+    if (const auto again = next_ ? next_ : playing_) announce(again->scene, again->setup);
 }
 
 const gles::Texture& Front::show_act(Instant now, const std::string& caption) {

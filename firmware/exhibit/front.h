@@ -24,9 +24,7 @@ class Front {
     void announce(const Scene& scene, Act::Setup setup);
     bool preparing() const { return playbill_->something_announced(); }
     /// A piece of what the announced act needs; see Playbill::work().
-    std::optional<Playbill::News> prepare(const std::function<bool()>& meanwhile = {}) {
-        return playbill_->work(meanwhile);
-    }
+    std::optional<Playbill::News> prepare(const std::function<bool()>& meanwhile = {});
     bool plays() const { return playbill_->plays(); }
     Act& act() { return playbill_->act(); }
     const Act& act() const { return playbill_->act(); }
@@ -67,7 +65,7 @@ class Front {
         Scene scene;
         Act::Setup setup;
     };
-    std::optional<Announced> last_;
+    std::optional<Announced> playing_, next_;
     std::uint64_t gpu_resets_ = 0;
     bool has_shown_words_ = false;
     Instant wait_due_{0};  ///< the next picture of wait()

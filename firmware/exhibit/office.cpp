@@ -46,6 +46,11 @@ void Office::tell_news(Front& front, HandSide& hand) {
         for (const std::string& line : front.act().news()) say(Event::QualityChanged, line);
     if (const auto news = hand.flight_news()) say(Event::FlightKept, *news);
     if (const auto news = front.news()) say(Event::Note, *news);
+    if (front.gpu_resets() > gpu_resets_) {
+        gpu_resets_ = front.gpu_resets();
+        say(Event::GpuReset,
+            fmt::format("the GPU was reset: the picture is made anew (reset {})", gpu_resets_));
+    }
     tell_of_hand(hand);
 }
 
