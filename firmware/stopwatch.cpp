@@ -62,39 +62,43 @@ Stopwatch::Moment Stopwatch::now() {
     return {milliseconds(CLOCK_PROCESS_CPUTIME_ID), milliseconds(CLOCK_MONOTONIC)};
 }
 
-Stopwatch::Stopwatch(gles::Gpu& gpu) : gpu_(gpu) {
-    gpu_.watch_stages([this](std::string_view stage, bool begins) {
-        if (!on_) return;
-        if (begins) {
-            begun_.push_back(now());
-            return;
+Stopwatch::Stopwatch(gles::Gpu& gpu) : gpu_(gpu) {}
+
+void Stopwatch::hear(std::string_view stage, bool begins) {
+    if (begins) {
+        begun_.push_back(now());
+        return;
+    }
+    const Moment end = now(), begin = begun_.back();
+    begun_.pop_back();
+    const std::string name(stage);
+    if (!timings_.contains(name)) order_.push_back(name);
+    Timings& t = timings_[name];
+    if (sampled_.insert(name).second) {
+        if (kept_ > 0 && t.wall_ms.size() == 2 * kept_) {
+            const auto old = static_cast<std::ptrdiff_t>(kept_);
+            t.cpu_ms.erase(t.cpu_ms.begin(), t.cpu_ms.begin() + old);
+            t.wall_ms.erase(t.wall_ms.begin(), t.wall_ms.begin() + old);
         }
-        const Moment end = now(), begin = begun_.back();
-        begun_.pop_back();
-        const std::string name(stage);
-        if (!timings_.contains(name)) order_.push_back(name);
-        Timings& t = timings_[name];
-        if (sampled_.insert(name).second) {
-            if (kept_ > 0 && t.wall_ms.size() == 2 * kept_) {
-                const auto old = static_cast<std::ptrdiff_t>(kept_);
-                t.cpu_ms.erase(t.cpu_ms.begin(), t.cpu_ms.begin() + old);
-                t.wall_ms.erase(t.wall_ms.begin(), t.wall_ms.begin() + old);
-            }
-            t.cpu_ms.push_back(0.0);
-            t.wall_ms.push_back(0.0);
-        }
-        t.cpu_ms.back() += end.cpu_ms - begin.cpu_ms;
-        t.wall_ms.back() += end.wall_ms - begin.wall_ms;
-    });
+        t.cpu_ms.push_back(0.0);
+        t.wall_ms.push_back(0.0);
+    }
+    t.cpu_ms.back() += end.cpu_ms - begin.cpu_ms;
+    t.wall_ms.back() += end.wall_ms - begin.wall_ms;
 }
 
 void Stopwatch::set_on(bool on) {
-    on_ = on;
     if (on) sampled_.clear();
+    if (on == on_) return;
+    on_ = on;
+    if (on)
+        gpu_.watch_stages([this](std::string_view stage, bool begins) { hear(stage, begins); });
+    else
+        gpu_.watch_stages({});
 }
 
 Stopwatch::~Stopwatch() {
-    gpu_.watch_stages({});
+    set_on(false);
 }
 
 }  // namespace eddy

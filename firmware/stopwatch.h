@@ -31,7 +31,7 @@ double percentile_95(std::vector<double> values);
 double percentile(std::vector<double> values, std::size_t percent);
 
 /// Times stages of a step while it is on: waits for the GPU at each stage's begin and end, so that a stage is
-/// charged with its own work and nothing else. That waiting costs; time whole steps without it.
+/// charged with its own work and nothing else. That waiting costs; time whole steps without it. Of several, one is on at a time.
 class Stopwatch {
   public:
     explicit Stopwatch(gles::Gpu& gpu);
@@ -56,6 +56,8 @@ class Stopwatch {
     static Moment now();
 
   private:
+    void hear(std::string_view stage, bool begins);
+
     gles::Gpu& gpu_;
     bool on_ = false;
     std::size_t kept_ = 0;  ///< 0: all

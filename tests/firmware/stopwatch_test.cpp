@@ -54,6 +54,23 @@ TEST_F(StopwatchTest, TimesEachStageOnceAStepWhileItIsOnInTheOrderTheyFirstRan) 
     for (const double ms : stopwatch.of("first").wall_ms) EXPECT_GE(ms, 0.0);
 }
 
+TEST_F(StopwatchTest, GoesOnWhenAnotherThatWasOnBeforeIsGone) {
+    auto before = std::make_unique<Stopwatch>(gpu);
+    Stopwatch stopwatch(gpu);
+    const auto step = [&](Stopwatch& timed) {
+        timed.set_on(true);
+        { const gles::Gpu::Stage stage(gpu, "only"); }
+        timed.set_on(false);
+    };
+    step(*before);
+    step(stopwatch);
+    step(*before);
+    before.reset();
+    step(stopwatch);
+    ASSERT_FALSE(stopwatch.stages().empty());
+    EXPECT_EQ(stopwatch.of("only").wall_ms.size(), 2u);
+}
+
 TEST_F(StopwatchTest, ChargesTimeToTheStageThatSpentIt) {
     Stopwatch stopwatch(gpu);
     stopwatch.set_on(true);
