@@ -61,6 +61,7 @@ bool is_wired(const GpioConfig& gpio) {
 }  // namespace
 
 ExhibitRun::ExhibitRun(const RunOptions& options) : options_(options) {
+    if (office_.has_manager()) outlive_console();
     prepare_folders(options);
     state_dir_ = state_folder(options);
 }
