@@ -1,4 +1,44 @@
 """A picture of the screen, judged coarsely: smoke never looks the same twice, the tank around it does."""
+import struct
+import zlib
+
+
+def rows_of_png(data):
+    """Width, height and the bytes of an 8-bit RGB or RGBA PNG as RGB, row by row (ISO/IEC 15948)."""
+    at, packed, head = 8, b"", None
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IHDR":
+            head = struct.unpack(">IIBBBBB", data[at + 8:at + 21])
+        elif kind == b"IDAT":
+            packed += data[at + 8:at + 8 + size]
+        at += size + 12
+    width, height, depth, colours, _, _, interlaced = head
+    if depth != 8 or colours not in (2, 6) or interlaced:
+        raise ValueError("not a plain 8-bit RGB or RGBA PNG")
+    bytes_each = 3 if colours == 2 else 4
+    raw, row_bytes = zlib.decompress(packed), width * bytes_each
+    above, rgb = bytearray(row_bytes), bytearray()
+    for y in range(height):
+        begin = y * (row_bytes + 1)
+        kind, row = raw[begin], bytearray(raw[begin + 1:begin + 1 + row_bytes])
+        for x in range(row_bytes if kind else 0):
+            left = row[x - bytes_each] if x >= bytes_each else 0
+            up = above[x]
+            if kind == 1:
+                guess = left
+            elif kind == 2:
+                guess = up
+            elif kind == 3:
+                guess = (left + up) // 2
+            else:
+                corner = above[x - bytes_each] if x >= bytes_each else 0
+                p = left + up - corner
+                guess = min((left, up, corner), key=lambda value: abs(p - value))
+            row[x] = (row[x] + guess) & 255
+        above = row
+        rgb += row if bytes_each == 3 else b"".join(row[x:x + 3] for x in range(0, row_bytes, 4))
+    return width, height, bytes(rgb)
 
 
 class Picture:
@@ -10,9 +50,11 @@ class Picture:
     @classmethod
     def read(cls, path):
         data = path.read_bytes()
+        if data.startswith(b"\x89PNG"):
+            return cls(*rows_of_png(data))
         magic, width, height, most, rgb = data.split(maxsplit=4)[:4] + [None]
         if magic != b"P6" or most != b"255":
-            raise ValueError(f"{path} is no PPM of 8 bits")
+            raise ValueError(f"{path} is neither a PNG nor a PPM of 8 bits")
         size = int(width) * int(height) * 3
         return cls(int(width), int(height), data[len(data) - size:])
 
