@@ -1,6 +1,7 @@
 #include "firmware/exhibit/hand_side.h"
 
 #include <fmt/format.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <cstring>
@@ -27,6 +28,7 @@ void HandSide::start(Clock& clock) {
     ran_ = true;
     stop_ = false;
     thread_ = std::thread([this, &clock] {
+        pthread_setname_np(pthread_self(), "eddy:hand");
         grant_ = grant_realtime(MemoryLock::No);
         loop_->run(clock, stop_);
     });

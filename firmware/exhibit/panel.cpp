@@ -1,6 +1,7 @@
 #include "firmware/exhibit/panel.h"
 
 #include <poll.h>
+#include <pthread.h>
 
 #include <thread>
 
@@ -10,12 +11,8 @@ namespace eddy {
 
 class Panel::Thread {
   public:
-    Thread(Gpio& gpio, const GpioConfig& config, Instant patience) : work(gpio, config) {
-        work.work(clock_.now());
-        while (!work.stop_is_known() && clock_.now() < patience) {
-            clock_.sleep_until(clock_.now() + kPeriod);
-            work.work(clock_.now());
-        }
+    Thread(Gpio& gpio, const GpioConfig& config, Instant patience) : work(gpio, config), patience_(patience) {
+        look();
         thread_ = std::thread([this] { run(); });
     }
     ~Thread() {
@@ -27,13 +24,20 @@ class Panel::Thread {
     Thread& operator=(const Thread&) = delete;
 
     PanelWork work;
+    std::atomic<bool> settled{false};
 
   private:
     void run() {
+        pthread_setname_np(pthread_self(), "eddy:panel");
         while (!end_.load(std::memory_order_relaxed)) {
             wait();
-            work.work(clock_.now());
+            look();
         }
+    }
+    void look() {
+        const Instant now = clock_.now();
+        work.work(now);
+        if (work.stop_is_known() || now >= patience_) settled.store(true, std::memory_order_release);
     }
     /// For the next edge, or kPeriod.
     void wait() {
@@ -46,6 +50,7 @@ class Panel::Thread {
     }
 
     RealClock clock_;
+    const Instant patience_;
     std::atomic<bool> end_{false};
     std::thread thread_;
 };
@@ -62,6 +67,9 @@ PanelNews Panel::news() {
 }
 const std::atomic<bool>& Panel::stop_input() const {
     return thread_->work.stop_input();
+}
+bool Panel::settled() const {
+    return thread_->settled.load(std::memory_order_acquire);
 }
 HandleLight Panel::handle_light() const {
     return thread_->work.handle_light();

@@ -33,12 +33,11 @@ class Panel {
     /// The stop input and the button are looked at so often, whatever edges their chip tells of: drivers of USB bridges find these
     /// later by themselves, and a line that is gone tells none.
     static constexpr Instant kPeriod = std::chrono::milliseconds(10);
-    /// A USB bridge may come up after the program does. So long the constructor waits for a stop input that is not there, so that
-    /// the day does not begin with a stop.
+    /// A USB bridge may come up after the program does. So long a stop input that is not there is waited for before it counts as
+    /// pressed, so that the day does not begin with a stop.
     static constexpr Instant kPatience = std::chrono::seconds(5);
 
-    /// `gpio` must outlive it. When this returns, stop_input() is true to what its line says. Throws nothing but for want of
-    /// memory or threads: what cannot be had is told in news().trouble.
+    /// `gpio` must outlive it. Throws nothing but for want of memory or threads: what cannot be had is told in news().trouble.
     Panel(Gpio& gpio, const GpioConfig& config, Instant patience = kPatience);
     /// All lamps are dark then.
     ~Panel();
@@ -52,7 +51,9 @@ class Panel {
     void show(LampCode code);
     /// Once: what happened since the last call is forgotten.
     PanelNews news();
-    /// For HapticLoop. Never true where there is no stop input.
+    /// From then on stop_input() is true to what its line says, or nobody waits for the line any longer.
+    bool settled() const;
+    /// For HapticLoop, which must not begin before settled(). Never true where there is no stop input.
     const std::atomic<bool>& stop_input() const;
     /// For HapticExchange::light, of the code that is shown now.
     HandleLight handle_light() const;

@@ -166,8 +166,6 @@ void ExhibitRun::open_hand() {
 
 bool ExhibitRun::first_act() {
     const RealClock took;
-    hand_began_ = clock_.now();
-    hand_->start(clock_);
     while (!asked_to_stop() && !lost_) {
         lost_ = front_->poll(clock_.now()) == DisplayState::Lost;
         heed_settings();
@@ -181,9 +179,19 @@ bool ExhibitRun::first_act() {
         if (news->began && news->prepared > kSlowWarmUp)
             office_.say(Event::Note, fmt::format("the driver took {:.1f} s to prepare its shaders",
                                                  Seconds(took.now()).count()));
-        if (news->began) return true;
+        if (!news->began) continue;
+        while (!hand_runs_ && prelude(kGettingReady)) std::this_thread::sleep_for(10ms);
+        return true;
     }
     return false;
+}
+
+/// Once it is known whether the stop is pressed.
+void ExhibitRun::start_hand() {
+    if (hand_runs_ || (panel_ && !panel_->settled())) return;
+    hand_runs_ = true;
+    hand_began_ = clock_.now();
+    hand_->start(clock_);
 }
 
 bool ExhibitRun::prelude(const std::string& what) {
@@ -196,6 +204,7 @@ bool ExhibitRun::prelude(const std::string& what) {
                          "the first words are on " + front_->graphics().display->describe());
     }
     shine(now);
+    start_hand();
     hand_->follow();
     return usable && !asked_to_stop();
 }

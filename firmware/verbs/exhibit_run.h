@@ -40,6 +40,7 @@ class ExhibitRun {
     bool first_act();
     /// While there is nothing to play yet, as often as one likes: says on the screen, and to the service manager, what takes so
     /// long. False: there is no use in going on with it.
+    void start_hand();
     bool prelude(const std::string& what);
 
     // --- a turn
@@ -88,6 +89,7 @@ class ExhibitRun {
     ClockSync clock_sync_;
     std::optional<Screenshot> screenshot_;
 
+    bool hand_runs_ = false;
     Instant hand_began_{0}, show_began_{0};
     bool first_words_ = false, first_frame_ = false;
     bool lost_ = false;  ///< only a new process can help

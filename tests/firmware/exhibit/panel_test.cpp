@@ -360,6 +360,7 @@ TEST(PanelThread, SeesStopAndButtonAndBeatsAndEndsInTheDark) {
     Desk::make(gpio);
     {
         Panel panel(gpio, all_wired());
+        EXPECT_TRUE(panel.settled());
         EXPECT_FALSE(panel.stop_input());
         panel.show(LampCode::Show);
         EXPECT_TRUE(soon([&] { return gpio.is_high("G"); }));
@@ -413,6 +414,8 @@ TEST(PanelThread, WaitsForABridgeThatComesUpLater) {
         gpio.plug_in("bridge");
     });
     const Panel panel(gpio, all_wired(), 60s);
+    EXPECT_FALSE(panel.settled());
+    EXPECT_TRUE(soon([&] { return panel.settled(); }));
     EXPECT_FALSE(panel.stop_input());
     later.join();
 }
@@ -420,8 +423,10 @@ TEST(PanelThread, WaitsForABridgeThatComesUpLater) {
 TEST(PanelThread, DoesNotWaitForeverAndIsStoppedThen) {
     EmulatedGpio gpio;
     const Panel panel(gpio, all_wired(), 100ms);
+    EXPECT_TRUE(soon([&] { return panel.settled(); }));
     EXPECT_TRUE(panel.stop_input());
     Panel unwired(gpio, GpioConfig{}, 60s);
+    EXPECT_TRUE(unwired.settled());
     EXPECT_FALSE(unwired.stop_input());
     EXPECT_EQ(unwired.news().trouble, "");
 }
