@@ -22,7 +22,8 @@ inline constexpr Word<DisplayChoice> kDisplayChoices[] = {
     {DisplayChoice::Headless, "headless", "no screen"},
 };
 inline constexpr Word<HapticsChoice> kHapticsChoices[] = {
-    {HapticsChoice::Auto, "auto", "the Falcon if there is one"},
+    {HapticsChoice::Auto, "auto",
+     "the Falcon, which a service waits for; else, and there is none, a simulated hand"},
     {HapticsChoice::Falcon, "falcon", "the Falcon"},
     {HapticsChoice::Emulated, "emulated", "a simulated hand"},
     {HapticsChoice::None, "none", "no hand"},

@@ -156,7 +156,7 @@ void ExhibitRun::open() {
 
 void ExhibitRun::open_hand() {
     const Exhibit& exhibit = settings_->exhibit();
-    RunDevice device = make_device(options_, exhibit);
+    RunDevice device = make_device(options_, exhibit, office_.has_manager());
     hand_.emplace(std::move(device.device), std::move(device.name), loop_settings(exhibit),
                   flights_folder(exhibit), panel_ ? &panel_->stop_input() : nullptr);
     hand_->orders().set_ceiling(exhibit.max_force_n);

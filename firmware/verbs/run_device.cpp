@@ -22,7 +22,7 @@ emulated::AxisMap axes_of(const RunOptions& options) {
 
 }  // namespace
 
-RunDevice make_device(const RunOptions& options, const Exhibit& exhibit) {
+RunDevice make_device(const RunOptions& options, const Exhibit& exhibit, bool waits) {
     HapticsChoice choice = options.haptics.value_or(exhibit.haptics);
     if (choice == HapticsChoice::None && !options.motion.empty())
         throw InputError("--motion: there is no hand to move; leave out --haptics none");
@@ -30,8 +30,8 @@ RunDevice make_device(const RunOptions& options, const Exhibit& exhibit) {
     if (choice == HapticsChoice::None) return {nullptr, "none"};
     const bool can_be_real = options.clock == ClockChoice::Real && options.motion.empty();
     if (choice == HapticsChoice::Auto)
-        choice =
-            can_be_real && falcon::falcon_is_plugged_in() ? HapticsChoice::Falcon : HapticsChoice::Emulated;
+        choice = can_be_real && (waits || falcon::falcon_is_plugged_in()) ? HapticsChoice::Falcon
+                                                                          : HapticsChoice::Emulated;
     if (choice == HapticsChoice::Falcon) {
         if (!can_be_real)
             throw InputError(

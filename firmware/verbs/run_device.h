@@ -12,7 +12,8 @@ struct RunDevice {
     std::string name;
 };
 
-/// The device the visitor of a run holds. Throws InputError, with the option's name, for what cannot be.
-RunDevice make_device(const RunOptions& options, const Exhibit& exhibit);
+/// The device the visitor of a run holds. `waits`: where it may be the Falcon it is, also if none is plugged in yet; else that is for
+/// who asks for one. Throws InputError, with the option's name, for what cannot be.
+RunDevice make_device(const RunOptions& options, const Exhibit& exhibit, bool waits = false);
 
 }  // namespace eddy

@@ -19,6 +19,7 @@ using namespace std::chrono_literals;
 using testing::AnyOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 /// An exhibit on small grids, with folders of its own.
@@ -258,6 +259,21 @@ TEST_F(ExhibitEndToEnd, TellsItsManagerOfItsLife) {
     const Ended ended = third.wait();
     EXPECT_THAT(ended.err, HasSubstr("the run before this one ended by itself"));
     EXPECT_EQ(read("status.json").at("exhibit").at("total").at("starts"), 3) << read("status.json");
+}
+
+TEST_F(ExhibitEndToEnd, WaitsForTheFalconUnderAManager) {
+    ManagerSocket manager(folder / "notify");
+    std::vector<std::string> arguments = command();
+    std::erase(arguments, "--haptics");
+    std::erase(arguments, "emulated");
+    arguments.insert(arguments.begin(), {"env", "NOTIFY_SOCKET=" + (folder / "notify")});
+    Program exhibit(arguments);
+    ASSERT_TRUE(plays());
+    const auto haptics = [&] { return read("status.json").at("haptics"); };
+    EXPECT_THAT(haptics().at("device").get<std::string>(), Not(HasSubstr("emulated"))) << haptics();
+    EXPECT_THAT(haptics().at("device").get<std::string>(), HasSubstr("Falcon"));
+    exhibit.send(SIGTERM);
+    EXPECT_EQ(exhibit.wait().status, 0);
 }
 
 TEST_F(ExhibitEndToEnd, IsClosedOutsideItsHoursOnlyIfItsClockIsTrusted) {
