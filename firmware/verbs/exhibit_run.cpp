@@ -212,7 +212,7 @@ bool ExhibitRun::prelude(const std::string& what) {
 // ----------------------------------------------------------------------------------------------------- a turn
 
 void ExhibitRun::turn(Instant now, Seconds since_last) {
-    ++turns_;
+    front_->gpu().on_pause([this] { alive(clock_.now()); });
     if (front_->poll(now) == DisplayState::Lost) {
         lost_ = true;
         return;
@@ -435,16 +435,23 @@ Office::View ExhibitRun::view() const {
 
 void ExhibitRun::report(Instant now, bool finally) {
     office_.tell_news(*front_, *hand_);
-    Heartbeats& beats = office_.service().heartbeats();
-    beats.see(Part::Render, turns_, now);
-    beats.see(Part::Config, turns_, now);
-    beats.see(Part::Haptic, hand_->report().ticks, now);
-    if (panel_) beats.see(Part::Gpio, panel_->beats(), now);
-    office_.service().go_on(now);
+    alive(now);
     if (!office_.report(now, view(), finally)) return;
     if (options_.seconds && front_->plays())
         progress_.show(Seconds(now - show_began_).count(), *options_.seconds,
                        fmt::format("{} fluid steps", front_->act().show().figures().steps));
+}
+
+/// The watchdog is fed if every part has got on. A turn gets on in the pauses of its GPU work, too: tuning, and other
+/// qualities of the fluid, may take longer to compile on a slow machine than the watchdog waits.
+void ExhibitRun::alive(Instant now) {
+    ++beats_;
+    Heartbeats& beats = office_.service().heartbeats();
+    beats.see(Part::Render, beats_, now);
+    beats.see(Part::Config, beats_, now);
+    beats.see(Part::Haptic, hand_->exchange().report.newest().ticks, now);
+    if (panel_) beats.see(Part::Gpio, panel_->beats(), now);
+    office_.service().go_on(now);
 }
 
 int ExhibitRun::finish() {

@@ -61,6 +61,7 @@ class ExhibitRun {
     void shine(Instant now);
     void blink(LampCode code);
     void report(Instant now, bool finally = false);
+    void alive(Instant now);
     int finish();
 
     bool done() const;
@@ -101,7 +102,7 @@ class ExhibitRun {
     std::optional<Instant> guide_until_, blink_until_;
     LampCode blink_ = LampCode::Accepted;
     Instant frame_due_{0}, look_due_{0};
-    std::uint64_t turns_ = 0;
+    std::uint64_t beats_ = 0;
 };
 
 }  // namespace eddy
