@@ -33,9 +33,9 @@ class Panel {
     /// The stop input and the button are looked at so often, whatever edges their chip tells of: drivers of USB bridges find these
     /// later by themselves, and a line that is gone tells none.
     static constexpr Instant kPeriod = std::chrono::milliseconds(10);
-    /// A USB bridge may come up after the program does. So long a stop input that is not there is waited for before it counts as
-    /// pressed, so that the day does not begin with a stop.
-    static constexpr Instant kPatience = std::chrono::seconds(5);
+    /// A USB bridge may come up well after the program does. So long a stop input that is not there is waited for, with no hand, before
+    /// it counts as pressed, so that the day does not begin with a stop.
+    static constexpr Instant kPatience = std::chrono::seconds(60);
 
     /// `gpio` must outlive it. Throws nothing but for want of memory or threads: what cannot be had is told in news().trouble.
     Panel(Gpio& gpio, const GpioConfig& config, Instant patience = kPatience);

@@ -74,7 +74,6 @@ int ExhibitRun::play() {
     show_began_ = clock_.now();
     office_.service().heartbeats().expect(Part::Render, show_began_);
     office_.service().heartbeats().expect(Part::Config, show_began_);
-    if (hand_->has_device()) office_.service().heartbeats().expect(Part::Haptic, show_began_);
     if (panel_) office_.service().heartbeats().expect(Part::Gpio, show_began_);
     Instant last = show_began_;
     while (!done()) {
@@ -179,9 +178,7 @@ bool ExhibitRun::first_act() {
         if (news->began && news->prepared > kSlowWarmUp)
             office_.say(Event::Note, fmt::format("the driver took {:.1f} s to prepare its shaders",
                                                  Seconds(took.now()).count()));
-        if (!news->began) continue;
-        while (!hand_runs_ && prelude(kGettingReady)) std::this_thread::sleep_for(10ms);
-        return true;
+        if (news->began) return true;
     }
     return false;
 }
@@ -191,6 +188,7 @@ void ExhibitRun::start_hand() {
     if (hand_runs_ || (panel_ && !panel_->settled())) return;
     hand_runs_ = true;
     hand_began_ = clock_.now();
+    if (hand_->has_device()) office_.service().heartbeats().expect(Part::Haptic, hand_began_);
     hand_->start(clock_);
 }
 
@@ -223,6 +221,7 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
     draw(now);
     if (plays) front_->act().publish(false);
     hand_->follow([this](std::span<const TickRecord> ticks) { recording_.add(ticks); });
+    start_hand();
     heed_panel(now);
     heed_hours(now);
     heed_visitors(now);
