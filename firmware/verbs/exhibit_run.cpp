@@ -450,6 +450,8 @@ void ExhibitRun::alive(Instant now) {
     beats.see(Part::Config, beats_, now);
     beats.see(Part::Haptic, hand_->exchange().report.newest().ticks, now);
     if (panel_) beats.see(Part::Gpio, panel_->beats(), now);
+    if (const auto part = beats.hanging(now))
+        office_.say(Event::Hangs, fmt::format("a part of the program does not get on: {}", to_word(*part)));
     office_.service().go_on(now);
 }
 
