@@ -448,7 +448,10 @@ void ExhibitRun::alive(Instant now) {
     Heartbeats& beats = office_.service().heartbeats();
     beats.see(Part::Render, beats_, now);
     beats.see(Part::Config, beats_, now);
-    beats.see(Part::Haptic, hand_->exchange().report.newest().ticks, now);
+    // A loop whose device comes or goes may have to wait for the kernel; there is no force then.
+    const LoopReport& loop = hand_->exchange().report.newest();
+    if (hand_runs_ && hand_->has_device() && loop.device != HapticState::Ready) beats.expect(Part::Haptic, now);
+    beats.see(Part::Haptic, loop.ticks, now);
     if (panel_) beats.see(Part::Gpio, panel_->beats(), now);
     if (const auto part = beats.hanging(now))
         office_.say(Event::Hangs, fmt::format("a part of the program does not get on: {}", to_word(*part)));
