@@ -88,7 +88,7 @@ class Machine:
         # No AVX: an emulator is faster at SSE, and QEMU 7.2 reads what a masked gather of AVX2 must not read, which the software
         # rasteriser does not survive.
         command = ["qemu-system-x86_64", "-M", "q35", "-cpu", "Westmere,+rdrand", "-smp", "1", "-m", str(memory_mib)]
-        command += ["-accel", "tcg"] + (["-icount", "shift=1,sleep=off"] if guest_clock else [])
+        command += ["-accel", "tcg"] + (["-icount", "shift=0,sleep=off"] if guest_clock else [])
         command += ["-drive", f"if=pflash,format=raw,readonly=on,file={FIRMWARE[0]}",
                     "-drive", f"if=pflash,format=raw,file={settings}",
                     "-drive", f"file={disk.path},if=virtio,cache=writethrough",
