@@ -17,7 +17,6 @@ struct GivenUp {};
 class Pauses {
   public:
     Pauses(gles::Gpu& gpu, const std::function<bool()>& meanwhile) : gpu_(gpu) {
-        if (!meanwhile) return;
         gpu_.on_pause([&meanwhile] {
             if (!meanwhile()) throw GivenUp();
         });
@@ -46,7 +45,8 @@ bool Playbill::prepare_a_piece() {
 std::optional<Playbill::News> Playbill::work(const std::function<bool()>& meanwhile) {
     if (!announced_) return std::nullopt;
     const RealClock clock;
-    const Pauses pauses(gpu_, meanwhile);
+    std::optional<Pauses> pauses;
+    if (meanwhile) pauses.emplace(gpu_, meanwhile);
     News news;
     try {
         const bool more = prepare_a_piece();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "firmware/built_from.h"
 #include "firmware/destination.h"
@@ -450,10 +451,11 @@ void ExhibitRun::alive(Instant now) {
     beats.see(Part::Config, beats_, now);
     // A loop whose device comes or goes may have to wait for the kernel; there is no force then.
     const LoopReport& loop = hand_->exchange().report.newest();
-    if (hand_runs_ && hand_->has_device() && loop.device != HapticState::Ready) beats.expect(Part::Haptic, now);
+    if (hand_runs_ && hand_->has_device() && loop.device != HapticState::Ready)
+        beats.expect(Part::Haptic, now);
     beats.see(Part::Haptic, loop.ticks, now);
     if (panel_) beats.see(Part::Gpio, panel_->beats(), now);
-    if (const auto part = beats.hanging(now))
+    if (const auto part = beats.hanging(now); part != std::exchange(hanging_, part) && part)
         office_.say(Event::Hangs, fmt::format("a part of the program does not get on: {}", to_word(*part)));
     office_.service().go_on(now);
 }

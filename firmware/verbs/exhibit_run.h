@@ -38,9 +38,9 @@ class ExhibitRun {
     void open_hand();
     /// Until the first act plays. False: told to stop meanwhile.
     bool first_act();
+    void start_hand();
     /// While there is nothing to play yet, as often as one likes: says on the screen, and to the service manager, what takes so
     /// long. False: there is no use in going on with it.
-    void start_hand();
     bool prelude(const std::string& what);
 
     // --- a turn
@@ -103,6 +103,7 @@ class ExhibitRun {
     LampCode blink_ = LampCode::Accepted;
     Instant frame_due_{0}, look_due_{0};
     std::uint64_t beats_ = 0;
+    std::optional<Part> hanging_;  ///< and the log says so
 };
 
 }  // namespace eddy
