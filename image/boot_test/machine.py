@@ -61,19 +61,9 @@ class Disk:
                         "conv=sparse", "status=none"], check=True)
         whole.unlink()
 
-    def damage(self, name, length, seed):
-        """Writes noise over the beginning of a partition. Only while the machine is off."""
-        import random
-        noise = self.path.with_suffix(".noise")
-        noise.write_bytes(random.Random(seed).randbytes(length))
-        start = self.partitions[name][0]
-        subprocess.run(["qemu-io", "-f", "qcow2", "-c", f"write -s {noise} {start} {length}", self.path],
-                       check=True, stdout=subprocess.DEVNULL)
-        noise.unlink()
-
 
 class Machine:
-    def __init__(self, disk, out, name, usb=(), guest_clock=False, memory_mib=2048):
+    def __init__(self, disk, out, name, usb=(), guest_clock=False):
         """usb: sockets on which devices are served. guest_clock: its clock counts instructions, whatever else this host does."""
         self.out = pathlib.Path(out)
         self.name = name
@@ -87,7 +77,7 @@ class Machine:
             shutil.copy(FIRMWARE[1], settings)
         # No AVX: an emulator is faster at SSE, and QEMU 7.2 reads what a masked gather of AVX2 must not read, which the software
         # rasteriser does not survive.
-        command = ["qemu-system-x86_64", "-M", "q35", "-cpu", "Westmere,+rdrand", "-smp", "1", "-m", str(memory_mib)]
+        command = ["qemu-system-x86_64", "-M", "q35", "-cpu", "Westmere,+rdrand", "-smp", "1", "-m", "2048"]
         command += ["-accel", "tcg"] + (["-icount", "shift=0,sleep=off"] if guest_clock else [])
         command += ["-drive", f"if=pflash,format=raw,readonly=on,file={FIRMWARE[0]}",
                     "-drive", f"if=pflash,format=raw,file={settings}",

@@ -1,7 +1,6 @@
 """The emulated devices of tests/redir: programs that serve a USB device on a socket."""
 import json
 import subprocess
-import time
 
 from machine import Failed, until
 
@@ -46,8 +45,3 @@ class Peer:
             if (kind is None or event["event"] == kind) and event["unix_s"] >= since:
                 found.append(event)
         return found
-
-    def wait_for(self, kind, seconds, right=lambda event: True, since=None):
-        since = time.time() if since is None else since
-        return until(f"{kind} of {self.path.stem}", seconds,
-                     lambda: [e for e in self.events(kind, since) if right(e)], 0.2)[0]
