@@ -1,5 +1,5 @@
 # The Debian package: `cmake --build BUILD --target package` (or script/package) makes eddy_VERSION_ARCH.deb. It installs the
-# program, what the system needs to know of it (systemd/), its settings and its notices, and starts the exhibit (package/).
+# program, what the system needs to know of it (systemd/), its settings and its notices, and starts the exhibit (systemd/package/).
 # It takes the program as it was built last: `--target eddy` first. (By itself it would build every test.)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 set(CMAKE_SKIP_PACKAGE_ALL_DEPENDENCY ON)
@@ -11,7 +11,7 @@ install(FILES systemd/eddy.service systemd/eddy-poweroff.path systemd/eddy-power
 install(FILES systemd/eddy.sysusers DESTINATION lib/sysusers.d RENAME eddy.conf)
 install(FILES systemd/eddy.tmpfiles DESTINATION lib/tmpfiles.d RENAME eddy.conf)
 install(FILES systemd/60-eddy.rules DESTINATION lib/udev/rules.d)
-install(FILES README.md CHANGELOG.md package/copyright DESTINATION ${doc})
+install(FILES README.md CHANGELOG.md systemd/package/copyright DESTINATION ${doc})
 install(DIRECTORY docs DESTINATION ${doc})
 
 # The machine's own settings: each value as the program ships it, behind a #.
@@ -64,6 +64,6 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS "libgl1-mesa-dri, systemd, udev, init-system-he
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "systemd-timesyncd")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/package/conffiles CONTENT "/etc/eddy/exhibit.toml\n" @ONLY)
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/package/postinst ${PROJECT_SOURCE_DIR}/package/prerm
-    ${PROJECT_SOURCE_DIR}/package/postrm ${PROJECT_BINARY_DIR}/package/conffiles)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/systemd/package/postinst ${PROJECT_SOURCE_DIR}/systemd/package/prerm
+    ${PROJECT_SOURCE_DIR}/systemd/package/postrm ${PROJECT_BINARY_DIR}/package/conffiles)
 include(CPack)

@@ -26,5 +26,5 @@ execute_process(COMMAND git -C ${root} describe --always --dirty OUTPUT_VARIABLE
 if(no_git)
     set(commit "a tree without history")
 endif()
-file(READ ${root}/package/RELINKING.md text)
+file(READ ${root}/systemd/package/RELINKING.md text)
 file(WRITE ${folder}/RELINKING.md "${text}This package was built from commit ${commit}.\n")
