@@ -25,9 +25,16 @@ constexpr double kPictureHz = 30.0;
 /// Pictures may take this share of the time; the rest is the fluid's.
 constexpr double kMostForPictures = 0.4;
 
-int iterations_of(SolverPreset preset, std::size_t series) {
-    constexpr int kSweeps[] = {20, 40, 80};
-    return preset == SolverPreset::Yang2009 ? kSweeps[series] : static_cast<int>(series) + 1;
+/// What a scene asks for is tried, too.
+std::vector<int> with_own(std::vector<int> usual, int own) {
+    if (std::find(usual.begin(), usual.end(), own) == usual.end())
+        usual.insert(std::upper_bound(usual.begin(), usual.end(), own), own);
+    return usual;
+}
+
+std::vector<int> iterations_for(const Scene& scene) {
+    const bool sweeps = scene.solver.preset == SolverPreset::Yang2009;
+    return with_own(sweeps ? std::vector{20, 40, 80} : std::vector{1, 2, 3}, quality_of(scene).iterations);
 }
 
 bool divides(const Scene& scene, int cells) {
@@ -53,7 +60,7 @@ void move_held(std::vector<gles::BodyState>& bodies, const BodySchedule& motions
 }  // namespace
 
 Tuner::Tuner(gles::Gpu& gpu, const Scene& scene)
-    : gpu_(gpu), scene_(scene), half_width_share_(half_width_share(scene)) {
+    : gpu_(gpu), scene_(scene), half_width_share_(half_width_share(scene)), iterations_(iterations_for(scene)) {
     tuning_.version = EDDY_VERSION;
     tuning_.renderer = gpu.capabilities().renderer;
     tuning_.machine = describe_machine();
@@ -61,8 +68,7 @@ Tuner::Tuner(gles::Gpu& gpu, const Scene& scene)
     tuning_.target_hz = 1.0 / scene.solver.dt_s;
     for (const int cells : kGrids)
         if (divides(scene, cells)) grids_.push_back(cells);
-    if (const int own = longest_side(scene); std::find(grids_.begin(), grids_.end(), own) == grids_.end())
-        grids_.insert(std::upper_bound(grids_.begin(), grids_.end(), own), own);
+    grids_ = with_own(std::move(grids_), longest_side(scene));
 
     const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, fluid_setup(scene));
     const std::vector<gles::BodyState> bodies = BodySchedule(scene).at(0.0, scene.solver.dt_s);
@@ -79,8 +85,7 @@ Tuner::Tuner(gles::Gpu& gpu, const Scene& scene)
 }
 
 Quality Tuner::candidate() const {
-    const SolverPreset preset = scene_.solver.preset;
-    return {preset, grids_[grid_], iterations_of(preset, series_)};
+    return {scene_.solver.preset, grids_[grid_], iterations_[series_]};
 }
 
 std::string Tuner::doing() const {

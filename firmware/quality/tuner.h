@@ -17,20 +17,18 @@ class Tuner {
   public:
     Tuner(gles::Gpu& gpu, const Scene& scene);
 
-    bool done() const { return series_ == kSeries; }
+    bool done() const { return series_ == iterations_.size(); }
     /// A piece: one step, or one fluid made, its shaders compiled and its first steps taken. Throws if nothing at all can be used.
     void work();
     /// What it is at, "fast 48^3, 2 cycles"; empty when done.
     std::string doing() const;
     /// Settings tried or passed over so far, of how many there are.
     std::size_t tried() const { return series_ * grids_.size() + grid_; }
-    std::size_t most_to_try() const { return kSeries * grids_.size(); }
+    std::size_t most_to_try() const { return iterations_.size() * grids_.size(); }
     /// Complete when done.
     const Tuning& tuning() const { return tuning_; }
 
   private:
-    static constexpr std::size_t kSeries = 3;  ///< numbers of iterations, each on growing grids
-
     Quality candidate() const;
     /// To the next grid, or the next series if this one has become too slow.
     void go_on(bool too_slow);
@@ -42,6 +40,7 @@ class Tuner {
     Scene scene_;
     double half_width_share_;
     Tuning tuning_;
+    std::vector<int> iterations_;  ///< a series each, on growing grids
     std::vector<int> grids_;
     std::size_t series_ = 0, grid_ = 0;
 

@@ -61,6 +61,12 @@ TEST_F(TunerTest, OfTheMethodOf2009TriesSweeps) {
     EXPECT_THAT(tried(tuning), ElementsAre(sweeps(20), sweeps(40), sweeps(80)));
 }
 
+TEST_F(TunerTest, TriesWhatTheSceneAsksFor) {
+    const Tuning tuning = tuning_of(small_tank("preset = \"yang2009\"\njacobi_sweeps = 4\n"));
+    const auto sweeps = [](int n) { return Quality{SolverPreset::Yang2009, 13, n}; };
+    EXPECT_THAT(tried(tuning), ElementsAre(sweeps(4), sweeps(20), sweeps(40), sweeps(80)));
+}
+
 TEST_F(TunerTest, LeavesLargerGridsAloneOnceOneIsTooSlow) {
     // A cube has all grids from 8 to 128; no machine takes 30 000 steps a second.
     const Scene cube = read_scene(
