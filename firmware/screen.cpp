@@ -92,13 +92,14 @@ void Screen::remember() {
     }
 }
 
-std::optional<std::string> Screen::news() {
+std::optional<Screen::News> Screen::news() {
     const std::string problem = graphics_.display->problem();
     if (problem.empty() && state_ != DisplayState::Showing) return std::nullopt;  // as was wished
     std::string text =
         fmt::format("{}: {}", to_string(state_), problem.empty() ? graphics_.display->describe() : problem);
     if (text == said_) return std::nullopt;
-    return said_ = std::move(text);
+    said_ = text;
+    return News{state_, std::move(text)};
 }
 
 }  // namespace eddy

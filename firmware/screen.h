@@ -34,8 +34,12 @@ class Screen {
     bool show(const gles::Texture& picture);
     /// Opening hours.
     void set_awake(bool awake) { graphics_.display->set_awake(awake); }
-    /// A line for the log when there is something new to say of the screen.
-    std::optional<std::string> news();
+    struct News {
+        DisplayState state;
+        std::string text;  ///< a line for the log
+    };
+    /// When there is something new to say of the screen.
+    std::optional<News> news();
     long shown() const { return shown_; }  ///< pictures
 
   private:

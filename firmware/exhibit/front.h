@@ -48,7 +48,7 @@ class Front {
     gles::Gpu& gpu() { return graphics_->gpu; }
     std::uint64_t gpu_resets() const { return gpu_resets_; }
     /// Something new to say of the screen.
-    std::optional<std::string> news() { return screen_->news(); }
+    std::optional<Screen::News> news() { return screen_->news(); }
 
   private:
     void make();

@@ -16,6 +16,19 @@ using namespace std::chrono_literals;
 
 constexpr Instant kReportEvery = 1s;
 
+Event event_of(DisplayState screen) {
+    switch (screen) {
+        case DisplayState::Showing:
+            return Event::ScreenFound;
+        case DisplayState::NoMonitor:
+        case DisplayState::Lost:
+            return Event::ScreenLost;
+        case DisplayState::Asleep:
+            break;
+    }
+    return Event::Note;
+}
+
 }  // namespace
 
 Office::Office(const Clock& clock)
@@ -45,7 +58,7 @@ void Office::tell_news(Front& front, HandSide& hand) {
     if (front.plays())
         for (const std::string& line : front.act().news()) say(Event::QualityChanged, line);
     if (const auto news = hand.flight_news()) say(Event::FlightKept, *news);
-    if (const auto news = front.news()) say(Event::Note, *news);
+    if (const auto news = front.news()) say(event_of(news->state), news->text);
     if (front.gpu_resets() > gpu_resets_) {
         gpu_resets_ = front.gpu_resets();
         say(Event::GpuReset,

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace eddy {
 namespace {
 
 constexpr std::time_t kAhead_s = 14 * 86400;
+/// Of a network that has yet to come up.
+constexpr Instant kClockPatience = std::chrono::minutes(10);
 
 std::tm civil(std::time_t time) {
     std::tm local{};
@@ -70,6 +73,11 @@ const Opening::State& Opening::look(std::time_t now, bool synchronised) {
         (state_.next_change && now >= *state_.next_change))
         state_ = {open, true, hours_.next_change(now)};
     return state_;
+}
+
+bool Opening::doubts(Instant now) {
+    if (hours_.always() || state_.clock_trusted || now < kClockPatience) return false;
+    return !std::exchange(doubted_, true);
 }
 
 std::string describe(const Opening::State& state) {

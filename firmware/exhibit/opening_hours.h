@@ -5,6 +5,7 @@
 #include <string>
 
 #include "config/opening_hours.h"
+#include "hal/clock.h"
 
 namespace eddy {
 
@@ -16,6 +17,7 @@ class OpeningHours {
     explicit OpeningHours(const HoursConfig& config);
 
     /// With nothing written it is always open.
+    bool always() const { return always_; }
     bool is_open(std::time_t now) const;
     /// When that will be another; none if not within two weeks.
     std::optional<std::time_t> next_change(std::time_t now) const;
@@ -40,11 +42,14 @@ class Opening {
     /// `synchronised`: the machine's clock was set by one that is right (clock_sync.h).
     const State& look(std::time_t now, bool synchronised);
     const State& state() const { return state_; }
+    /// True once, when hours are written and for ten minutes of the run nobody vouched for the clock. `now`: the run's.
+    bool doubts(Instant now);
 
   private:
     OpeningHours hours_;
     State state_;
     std::optional<std::time_t> looked_;
+    bool doubted_ = false;
 };
 
 /// "open until Tuesday 17:00", for people.

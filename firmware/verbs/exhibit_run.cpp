@@ -328,6 +328,7 @@ void ExhibitRun::heed_hours(Instant now) {
     if (now < look_due_) return;
     look_due_ = now + 1s;
     const Opening::State& state = opening_->look(std::time(nullptr), clock_sync_.look(ask_kernel()));
+    if (opening_->doubts(now)) office_.say(Event::ClockUnsure, describe(state));
     if (state.open == is_open_) return;
     is_open_ = state.open;
     office_.say(is_open_ ? Event::Opened : Event::Closed, describe(state));

@@ -158,13 +158,17 @@ TEST_F(ScreenTest, SaysWhatIsNewOnceAndRemembersTheScreen) {
     run(200ms);
     const auto news = screen->news();
     ASSERT_TRUE(news);
-    EXPECT_THAT(*news, AllOf(HasSubstr("showing"), HasSubstr("Hall 1")));
+    EXPECT_EQ(news->state, DisplayState::Showing);
+    EXPECT_THAT(news->text, AllOf(HasSubstr("showing"), HasSubstr("Hall 1")));
     EXPECT_FALSE(screen->news());
     EXPECT_EQ(last_screen(folder.path()), graphics->display->screen_id());
     plug().connection = Connection::Disconnected;
     machine.tell_of_plugs();
     run(1s);
-    EXPECT_THAT(screen->news().value_or(""), HasSubstr("no monitor: no screen is connected"));
+    const auto loss = screen->news();
+    ASSERT_TRUE(loss);
+    EXPECT_EQ(loss->state, DisplayState::NoMonitor);
+    EXPECT_THAT(loss->text, HasSubstr("no monitor: no screen is connected"));
 }
 
 TEST_F(ScreenTest, ADisplayThatGivesUpAsksForARestart) {

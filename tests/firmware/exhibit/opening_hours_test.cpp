@@ -8,6 +8,8 @@
 namespace eddy {
 namespace {
 
+using namespace std::chrono_literals;
+
 HoursConfig museum() {
     HoursConfig c;
     c.monday = "closed";
@@ -88,6 +90,23 @@ TEST(Opening, NeverClosesByAClockThatMayBeWrong) {
     EXPECT_EQ(describe(opening.state()), "open: the clock is not synchronised");
     EXPECT_FALSE(opening.look(night, true).open) << "the clock was set, to the very same second";
     EXPECT_EQ(describe(opening.state()), "closed until Tuesday 09:00");
+}
+
+TEST(Opening, SaysOnceThatNobodyVouchesForTheClock) {
+    const TimeZone berlin(kBerlin);
+    Opening opening(museum());
+    opening.look(utc("2026-11-24 02:00:00Z"), false);
+    EXPECT_FALSE(opening.doubts(9min)) << "the network may yet come";
+    EXPECT_TRUE(opening.doubts(11min));
+    EXPECT_FALSE(opening.doubts(12min));
+
+    Opening trusted(museum());
+    trusted.look(utc("2026-11-24 02:00:00Z"), true);
+    EXPECT_FALSE(trusted.doubts(11min));
+
+    Opening always(HoursConfig{});
+    always.look(utc("2026-11-24 02:00:00Z"), false);
+    EXPECT_FALSE(always.doubts(11min)) << "nobody asks for the time";
 }
 
 TEST(Opening, ChangesToTheSecondAndSaysWhenNext) {
