@@ -151,7 +151,7 @@ ExhibitReading read_exhibit(const ExhibitFiles& files);
 inline constexpr const char* kConfigFolder = "/etc/eddy";
 
 /// Both of the above; throws ConfigError, with everything that is wrong.
-LoadedExhibit load_exhibit(const std::filesystem::path& folder = kConfigFolder);
+LoadedExhibit load_exhibit(const std::filesystem::path& folder);
 
 /// What `file` alone would set, merged over what the binary ships. Throws as load_exhibit() does.
 LoadedExhibit load_exhibit_file(const std::filesystem::path& file);

@@ -179,6 +179,7 @@ struct CommandLine {
         verb->option_defaults()->take_last();
         verb->add_option("--connector", screen.connector,
                          "a plug, as HDMI-A-1 [screen.connector of the exhibit]");
+        add_config(*verb, screen.config);
         verb->add_option("--mode", screen.mode, "a mode, as 1920x1080@60 [screen.mode]")
             ->check([](const std::string& text) {
                 return text.empty() || kms::parse_mode(text) ? std::string()
@@ -194,6 +195,7 @@ struct CommandLine {
         verb->option_defaults()->take_last();
         auto* code = verb->add_option("--code", panel.code, "light the lamps as for this code instead");
         choose(*code, std::span<const Word<LampCode>>(kLampCodes));
+        add_config(*verb, panel.config);
         verb->add_option("--seconds", panel.seconds, "how long to look")
             ->check(number_from(0.1, 86400.0))
             ->capture_default_str();
@@ -227,6 +229,7 @@ struct CommandLine {
             ->capture_default_str();
         choose(*verb->add_option("--haptics", rt_selftest.haptics, "with which device [that of the exhibit]"),
                words_of(HapticsChoice{}));
+        add_config(*verb, rt_selftest.config);
         verb->add_option("--plot", rt_selftest.plot, "draw how often each period came into this PNG");
         verb->footer(
             "  eddy rt-selftest --seconds 60 --plot periods.png   while the exhibit's other work goes on\n"

@@ -13,7 +13,7 @@ int diagnose_panel(const PanelOptions& options) {
         fmt::print("{}", lamp_table());
         return 0;
     }
-    const GpioConfig config = load_exhibit().exhibit.gpio;
+    const GpioConfig config = load_exhibit(options.config).exhibit.gpio;
     stop_on_signals();
     RealClock clock;
     // Each line as it happens, through a pipe too.

@@ -128,7 +128,7 @@ int rt_selftest(const RtSelftestOptions& options) {
     }
     RunOptions run;
     run.haptics = options.haptics;
-    RunDevice device = make_device(run, load_exhibit().exhibit);
+    RunDevice device = make_device(run, load_exhibit(options.config).exhibit);
     if (!device.device)
         throw InputError("--haptics none: there is no exchange to measure; leave it out, or use emulated");
     const Measured measured = measure(*device.device, Seconds(options.seconds));

@@ -7,7 +7,7 @@
 namespace eddy {
 
 int diagnose_screen(const ScreenOptions& options) {
-    const Exhibit exhibit = load_exhibit().exhibit;
+    const Exhibit exhibit = load_exhibit(options.config).exhibit;
     const auto machine = kms::make_machine();
     const ScreenReport report = report_screens(
         *machine, {options.connector.value_or(exhibit.screen.connector),

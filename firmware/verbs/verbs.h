@@ -137,6 +137,7 @@ int diagnose_falcon(const FalconOptions& options);
 int calibrate_falcon(const FalconOptions& options);
 
 struct ScreenOptions {
+    std::string config = kConfigFolder;    ///< folder of the exhibit's settings
     std::optional<std::string> connector;  ///< in place of the exhibit's
     std::optional<std::string> mode;
 };
@@ -144,6 +145,7 @@ struct ScreenOptions {
 int diagnose_screen(const ScreenOptions& options);
 
 struct PanelOptions {
+    std::string config = kConfigFolder;  ///< folder of the exhibit's settings
     std::optional<LampCode> code;  ///< show it, in place of one lamp after the other
     double seconds = 10.0;         ///< how long to look
     bool codes = false;            ///< print what each means, and stop
@@ -159,6 +161,7 @@ struct ReplayOptions {
 int replay(const ReplayOptions& options);
 
 struct RtSelftestOptions {
+    std::string config = kConfigFolder;  ///< folder of the exhibit's settings
     double seconds = 10.0;
     std::optional<HapticsChoice> haptics;
     std::string plot;  ///< PNG file; empty: none

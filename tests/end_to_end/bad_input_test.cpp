@@ -161,7 +161,8 @@ TEST_F(BadInput, AboutTheFalconIsNamed) {
     expect_refused({"falcon", "--config", etc.path()}, {"falcon.firmware", missing + "/settings.bin"});
     etc.write("exhibit.toml", "[falcon]\nserail = \"F\"\n");
     expect_refused({"falcon", "--config", etc.path()}, {"exhibit.toml:2:1", "nearest valid key: serial"});
-    expect_refused({"tune", "--config", etc.path()}, {"exhibit.toml:2:1", "nearest valid key: serial"});
+    for (const char* verb : {"tune", "screen", "panel", "rt-selftest"})
+        expect_refused({verb, "--config", etc.path()}, {"exhibit.toml:2:1", "nearest valid key: serial"});
     expect_refused({"panel", "--code", "blink"}, {"--code", "blink", "degraded"});
     expect_refused({"panel", "--code", "show", "--codes"}, {"--codes", "--code"});
     expect_refused({"falcon", "--seconds", "3", "calibrate"}, {"--seconds", "calibrate"});

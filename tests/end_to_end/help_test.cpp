@@ -26,10 +26,10 @@ const std::vector<Verb> kVerbs{
     {"tune", {"SCENE", "--scene", "--set", "--config", "--state-dir", "--show"}},
     {"falcon", {"--firmware", "--serial", "--config", "--seconds", "calibrate"}},
     {"haptics", {"--scene", "--grid", "--quick", "--out"}},
-    {"screen", {"--connector", "--mode"}},
-    {"panel", {"--code", "--codes", "--seconds", "shutting_down"}},
+    {"screen", {"--connector", "--config", "--mode"}},
+    {"panel", {"--code", "--codes", "--config", "--seconds", "shutting_down"}},
     {"replay", {"FLIGHT", "--plot", ".flight"}},
-    {"rt-selftest", {"--seconds", "--haptics", "--plot", "1.5 ms"}},
+    {"rt-selftest", {"--seconds", "--haptics", "--config", "--plot", "1.5 ms"}},
     {"check-config", {"FILE"}},
     {"print-config", {"SCENE", "--set", "--origin"}},
 };
