@@ -46,6 +46,20 @@ TEST_F(Units, SayNothingThatSystemdDoesNotUnderstand) {
     ASSERT_EQ(paths_.size(), 3U);
 }
 
+TEST(UnitsOfTheImage, AreAllThatWantToBeStarted) {
+    const std::string list = read_all(std::filesystem::path(EDDY_SOURCE_DIR) / "image" / "units");
+    const std::size_t begin = list.find("[enabled]");
+    ASSERT_NE(begin, std::string::npos);
+    const std::string enabled = list.substr(begin, list.find('[', begin + 1) - begin);
+    int wanted = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(kUnits)) {
+        if (!entry.is_regular_file() || read_all(entry.path()).find("\nWantedBy=") == std::string::npos) continue;
+        EXPECT_THAT(enabled, HasSubstr(entry.path().filename().string()));
+        ++wanted;
+    }
+    EXPECT_EQ(wanted, 2);
+}
+
 TEST_F(Units, AMistakeWouldBeSeen) {
     const std::string bad = folder_.write("bad.service", "[Service]\nExecStart=/bin/true\nRestrat=always\n");
     EXPECT_THAT(verify({bad}).err, HasSubstr("Restrat"));
