@@ -5,8 +5,13 @@ from machine import Failed, until
 
 STATUS = "/run/eddy/status.json"
 ANSWER = "/run/eddy/status/config.json"
-SETTINGS = "/etc/eddy"
+CONFIG = "/etc/eddy"
 ALIKE = 0.5  # words come to less than 0; the tank, the ball and its smoke elsewhere, came to 0.74 and more
+
+
+# Writes settings without end: each whole, beside its place, then put there.
+WRITER = (f"n=$(date +%s); while :; do n=$((n + 1)); printf 'max_force_n = 1.%s\\n' $n >{CONFIG}/conf.d/.n;"
+          f" mv {CONFIG}/conf.d/.n {CONFIG}/conf.d/40-n.toml; sync; done")
 
 
 class Exhibit:
@@ -25,7 +30,7 @@ class Exhibit:
 
     def wait_for_show(self, seconds, after=0):
         self.machine.wait_for("eddy: the show is on", seconds, after)
-        return self.wait_for_picture(60)
+        return self.wait_for_picture(seconds)
 
     # --- its files ---
     def json(self, path):
@@ -45,31 +50,38 @@ class Exhibit:
         return until(what, seconds, look, 1.0)
 
     def write(self, path, text):
-        """As a careful writer does: beside it, to the disk, then renamed."""
-        self.machine.ask(f"cat >{path}.tmp <<'END'\n{text}END\nsync {path}.tmp && mv {path}.tmp {path}")
+        """As a careful writer does: beside it, to the disk, then renamed; when that was, by its own clock [s]."""
+        said = self.machine.ask(f"cat >{path}.tmp <<'END'\n{text}END\nsync {path}.tmp && cat /proc/uptime && mv {path}.tmp {path}")
+        return float(said.split()[0])
 
     def answer_to(self, path, text, seconds):
-        """The exhibit's answer to a file that is written into its settings, and how long it took by its own clock [s]."""
-        number = self.answers()
-        begin = self.machine.uptime_s()
-        self.write(f"{SETTINGS}/{path}", text)
-        until(f"an answer to {path}", seconds, lambda: self.answers() != number, 0.2)
-        return self.json(ANSWER), self.machine.uptime_s() - begin
+        """The exhibit's answer to a file that is written into its settings."""
+        def number():
+            answer = self.answer()
+            return answer["applied"] + answer["refused"]
+        before = number()
+        self.write(f"{CONFIG}/{path}", text)
+        until(f"an answer to {path}", seconds, lambda: number() != before, 0.2)
+        return self.answer()
 
-    def answers(self):
-        answer = self.json(ANSWER)
-        return answer["applied"] + answer["refused"]
+    def answer(self):
+        """What it made of its settings."""
+        return self.json(ANSWER)
 
-    def source(self):
-        """Where the settings that run are from: new, last-good or factory."""
-        return self.json(ANSWER)["source"]
+    def wait_for_proof(self, seconds):
+        """Settings under which the program dies in their first half minute are given up."""
+        until("the settings to be out of probation", seconds, lambda: not self.answer()["probation"], 2.0)
 
     # --- its log ---
-    def events(self, kind):
-        """Lines of this kind since the machine started: (time since then [s], text)."""
-        lines = self.machine.ask(f"journalctl -b -o json --output-fields=MESSAGE EDDY_EVENT={kind}", 120).splitlines()
-        found = [json.loads(line) for line in lines if line.startswith("{")]
-        return [(int(line["__MONOTONIC_TIMESTAMP"]) / 1e6, line["MESSAGE"]) for line in found]
+    def count(self, kind, text):
+        """How many lines of this kind that hold the text there are since the machine started."""
+        return int(self.machine.ask(f"journalctl -b -o cat EDDY_EVENT={kind} | grep -c '{text}' || true", 120).split()[-1])
+
+    def last(self, kind):
+        """When it last said something of this kind, since the machine started [s]; -1 if it never did."""
+        said = self.machine.ask(f"journalctl -b -n 1 -o json --output-fields=MESSAGE EDDY_EVENT={kind}", 120)
+        lines = [line for line in said.splitlines() if line.startswith("{")]
+        return int(json.loads(lines[-1])["__MONOTONIC_TIMESTAMP"]) / 1e6 if lines else -1.0
 
     def process(self):
         return int(self.machine.ask("systemctl show -P MainPID eddy"))

@@ -52,6 +52,10 @@ class Disk:
         table = json.loads(subprocess.run(["sfdisk", "--json", self.image], check=True, capture_output=True).stdout)
         self.partitions = {p["name"]: (p["start"] * 512, p["size"] * 512) for p in table["partitiontable"]["partitions"]}
 
+    def damage(self, name):
+        """Sixteen MiB of nonsense where a partition begins."""
+        subprocess.run(["qemu-io", "-c", f"write -q -P 0xaa {self.partitions[name][0]} 16M", self.path], check=True, stdout=subprocess.DEVNULL)
+
     def read(self, name, to):
         """A partition, as it is now, as a file. Only while the machine is off."""
         whole = self.path.with_suffix(".raw")
@@ -63,7 +67,7 @@ class Disk:
 
 
 class Machine:
-    def __init__(self, disk, out, name, usb=(), guest_clock=False):
+    def __init__(self, disk, out, name, usb, guest_clock):
         """usb: sockets on which devices are served. guest_clock: its clock counts instructions, whatever else this host does."""
         self.out = pathlib.Path(out)
         self.name = name
@@ -77,8 +81,8 @@ class Machine:
             shutil.copy(FIRMWARE[1], settings)
         # No AVX: an emulator is faster at SSE, and QEMU 7.2 reads what a masked gather of AVX2 must not read, which the software
         # rasteriser does not survive.
-        command = ["qemu-system-x86_64", "-M", "q35", "-cpu", "Westmere,+rdrand", "-smp", "1", "-m", "2048"]
-        command += ["-accel", "tcg"] + (["-icount", "shift=0,sleep=off"] if guest_clock else [])
+        command = ["qemu-system-x86_64", "-M", "q35", "-cpu", "Westmere,+rdrand", "-smp", "1" if guest_clock else "2", "-m", "2048"]
+        command += ["-accel", "tcg,thread=single" if guest_clock else "tcg,thread=multi"] + (["-icount", "shift=0,sleep=on"] if guest_clock else [])
         command += ["-drive", f"if=pflash,format=raw,readonly=on,file={FIRMWARE[0]}",
                     "-drive", f"if=pflash,format=raw,file={settings}",
                     "-drive", f"file={disk.path},if=virtio,cache=writethrough",
@@ -101,7 +105,11 @@ class Machine:
         self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log)
         self.asked = 0
         self.qmp_stream = None
-        self.agent_stream = self.connect(self.agent_socket, 20)  # at once: the shell ends while nobody holds the line
+        try:
+            self.agent_stream = self.connect(self.agent_socket, 20)  # at once: the shell ends while nobody holds the line
+        except Failed:
+            self.process.kill()
+            raise
 
     def __enter__(self):
         return self
@@ -119,6 +127,9 @@ class Machine:
         if self.qmp_stream:
             self.qmp_stream.close()
         self.log.close()
+
+    def wait_for_off(self, seconds):
+        until("the machine to switch itself off", seconds, lambda: self.process.poll() is not None)
 
     def age_s(self):
         return time.monotonic() - self.began

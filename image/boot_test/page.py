@@ -8,7 +8,7 @@ force by what arrives at the Falcon, the lamps by the lines of the bridge. This 
 (`image/boot-test --page`); it says what the last run found, also where that is bad.
 
 Times are the emulated machine's. An emulated processor is far slower than a real one, most of all at what a fluid needs, so
-the fluid is tiny (8³ cells) and the picture small. In steps that say *by its own clock* that clock counts instructions, a thousand million a second,
+the fluid is tiny (8³ cells) and the picture small. A power cut here is one of the machine, not of its disk: what the disk had taken is kept. In steps that say *by its own clock* that clock counts instructions, a thousand million a second,
 whatever else the computer underneath does; in the others it is the clock on the wall.
 """
 
@@ -23,7 +23,8 @@ def page(everything):
             continue
         found = everything[part]
         good = sum(not step["why"] for step in found["steps"])
-        text.append(f"{title}\n\n{good} of {len(found['steps'])} steps passed, in {found['minutes']} minutes.\n\n```\n{found['facts']['image']}```\n")
+        end = "" if found["finished"] else " It did not get to its end."
+        text.append(f"{title}\n\n{good} of {len(found['steps'])} steps passed, in {found['minutes']} minutes.{end}\n\n```\n{found['facts']['image']}```\n")
         text.append("| step | passed | took [s] | measured |\n|---|---|---|---|")
         for step in found["steps"]:
             figures = "; ".join(f"{name} {value}" for name, value in step["figures"].items())

@@ -85,13 +85,20 @@ class Picture:
     def is_black(self):
         return self.contrast() < 2.0 and self.mean() < 8.0
 
+    def column_of_orange(self):
+        """Where, of 32 columns, what is orange is on the mean: the ball. None if nothing is; smoke, tank and words are not."""
+        weight = at = 0.0
+        for y in range(0, self.height, 4):
+            row = self.rgb[y * self.width * 3:(y + 1) * self.width * 3]
+            for x, (red, blue) in enumerate(zip(row[0::12], row[2::12])):
+                if red - blue > 60:
+                    weight += red - blue
+                    at += (red - blue) * x
+        return at / weight * 4 * self.COLUMNS / self.width if weight else None
+
     def likeness(self, other):
         """Correlation of the fields: 1 the same picture, 0 nothing in common."""
         a, b = self.mean(), other.mean()
         both = sum((x - a) * (y - b) for x, y in zip(self.blocks(), other.blocks())) / len(self.blocks())
         spread = self.contrast() * other.contrast()
         return both / spread if spread else 0.0
-
-    def change(self, other):
-        """Mean difference of the fields, 0 to 255."""
-        return sum(abs(x - y) for x, y in zip(self.blocks(), other.blocks())) / len(self.blocks())

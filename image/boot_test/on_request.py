@@ -1,0 +1,89 @@
+"""What is done to the box on request, for it takes hours: an update, one that does not work, power cuts by the dozen."""
+import random
+import subprocess
+import sys
+import time
+
+from bench import PATIENCE, TOP
+from exhibit import CONFIG, WRITER, Exhibit
+from machine import Failed
+
+
+def on_request(bench, cuts, seed):
+    bench.prepare()
+    bench.first_start()
+    update(bench)
+    power_cuts(bench, cuts, random.Random(seed))
+
+
+def update_stick(bench, name, *options):
+    """What a stick carries to make the exhibit another version of itself."""
+    folder = bench.out / name
+    subprocess.run([TOP / "image/build", "--update-only", "--version", name, "--out", folder, *options],
+                   check=True, stdout=subprocess.DEVNULL)
+    return bench.stick(name, {f"eddy-update/{path.name}": path for path in (folder / "update").iterdir()})
+
+
+def update(bench):
+    with bench.step("two updates are built, one of them with a program that ends at once", fatal=True):
+        broken = bench.out / "overlay" / "usr" / "bin"
+        broken.mkdir(parents=True, exist_ok=True)
+        (broken / "eddy").write_text("#!/bin/sh\nexit 1\n")
+        (broken / "eddy").chmod(0o755)
+        good = update_stick(bench, "update-good")
+        bad = update_stick(bench, "update-bad", "--overlay", bench.out / "overlay")
+    with bench.machine() as m:
+        e = Exhibit(m, bench.expected)
+        with bench.step("a stick with an update: the machine starts again with it, and keeps it", fatal=True) as s:
+            e.wait_for_show(PATIENCE)
+            said = len(m.said())
+            m.plug_stick(good)
+            m.wait_for("update-good is in place", PATIENCE, said)
+            e.wait_for_show(3 * PATIENCE, said)
+            m.pull_stick()
+            m.wait_for("update-good works and is kept", 3 * PATIENCE, said)
+            s.figure("version", version(m))
+        with bench.step("an update that does not work: after three starts the machine is what it was") as s:
+            said = len(m.said())
+            m.plug_stick(bad)
+            m.wait_for("update-bad is in place", PATIENCE, said)
+            m.pull_stick()
+            m.wait_for("the update to update-bad did not work", 20 * PATIENCE, said)
+            e.wait_for_show(3 * PATIENCE, said)
+            s.figure("version", version(m))
+            if version(m) != "update-good":
+                raise Failed(f"the version is {version(m)}")
+    with bench.step("the data partition is sound after that"):
+        bench.sound_data("updates")
+
+
+def version(m):
+    return m.ask("sed -n s/^IMAGE_VERSION=//p /usr/lib/os-release").strip()
+
+
+def power_cuts(bench, count, chance):
+    """At random moments from power on to a minute into the show, while settings are written all the time."""
+    bad = []
+    with bench.step(f"{count} power cuts at random moments: each time the data is sound; each tenth time the show is waited for") as s:
+        for cut in range(1, count + 1):
+            with bench.machine() as m:
+                moment = chance.uniform(5.0, 150.0)
+                try:
+                    m.ask(f"(until [ -d {CONFIG}/conf.d ]; do sleep 1; done; {WRITER}) >/dev/null 2>&1 &", max(1.0, moment - m.age_s()))
+                except Failed:
+                    m.alive()  # not yet up: then it is a cut of the start
+                time.sleep(max(0.0, moment - m.age_s()))
+            try:
+                bench.sound_data(f"cut {cut}")
+            except Failed as failed:
+                bad.append(str(failed))
+            if cut % 10 == 0 or cut == count:
+                with bench.machine() as m:
+                    e = Exhibit(m, bench.expected)
+                    e.wait_for_show(PATIENCE)
+                    if (source := e.answer()["source"]) != "new":
+                        bad.append(f"after cut {cut} the settings are {source}")
+            print(f"     {cut} of {count}", file=sys.stderr, flush=True)
+        s.figure("damaged or wrong", len(bad))
+        if bad:
+            raise Failed("\n".join(bad))
