@@ -127,7 +127,7 @@ Seconds Act::beside_the_fluid(const std::function<void()>& work) {
     const RealClock clock;
     work();
     const Seconds took = clock.now();
-    elsewhere_ += took;
+    was_elsewhere(took);
     return took;
 }
 

@@ -43,6 +43,8 @@ class Act {
     void go_on(Instant now, Seconds interval);
     /// Other work of this thread: it is not the fluid's fault when the next step is late for it. Returns what it took.
     Seconds beside_the_fluid(const std::function<void()>& work);
+    /// Such work has taken so long.
+    void was_elsewhere(Seconds took) { elsewhere_ += took; }
     /// Hands results that the GPU has finished to the haptic loop; with `wait`, the oldest in any case.
     void publish(bool wait);
     /// Draws the fluid as it is now, with a sentence under it, if any.

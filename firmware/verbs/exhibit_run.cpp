@@ -14,6 +14,7 @@
 #include "firmware/verbs/run_device.h"
 #include "firmware/verbs/run_options.h"
 #include "firmware/verbs/stop.h"
+#include "gles/gpu.h"
 #include "gles/render/window.h"
 #include "hal/gpio/real_gpio.h"
 
@@ -211,7 +212,7 @@ bool ExhibitRun::prelude(const std::string& what) {
 // ----------------------------------------------------------------------------------------------------- a turn
 
 void ExhibitRun::turn(Instant now, Seconds since_last) {
-    front_->gpu().on_pause([this] { alive(clock_.now()); });
+    front_->gpu().on_pause([this] { alive(); });
     if (front_->poll(now) == DisplayState::Lost) {
         lost_ = true;
         return;
@@ -365,10 +366,18 @@ void ExhibitRun::prepare_next() {
     if (!front_->preparing()) return;
     office_.service().long_work_begins();
     std::optional<Playbill::News> news;
-    if (front_->plays())
-        front_->act().beside_the_fluid([&] { news = front_->prepare(); });
-    else
+    if (front_->plays()) {
+        // The last piece puts another act in the place of the one that plays: whichever it is then has lost that time.
+        gles::finish();
+        const RealClock clock;
+        news = front_->prepare([this] {
+            alive();
+            return !asked_to_stop();
+        });
+        front_->act().was_elsewhere(clock.now());
+    } else {
         news = front_->prepare([this] { return front_->wait(kMadeAnew, clock_.now()) && !asked_to_stop(); });
+    }
     office_.service().long_work_ends(clock_.now());
     if (news) follow(*news);
 }
@@ -436,7 +445,7 @@ Office::View ExhibitRun::view() const {
 
 void ExhibitRun::report(Instant now, bool finally) {
     office_.tell_news(*front_, *hand_);
-    alive(now);
+    alive();
     if (!office_.report(now, view(), finally)) return;
     if (options_.seconds && front_->plays())
         progress_.show(Seconds(now - show_began_).count(), *options_.seconds,
@@ -445,7 +454,8 @@ void ExhibitRun::report(Instant now, bool finally) {
 
 /// The watchdog is fed if every part has got on. A turn gets on in the pauses of its GPU work, too: tuning, and other
 /// qualities of the fluid, may take longer to compile on a slow machine than the watchdog waits.
-void ExhibitRun::alive(Instant now) {
+void ExhibitRun::alive() {
+    const Instant now = clock_.now();  // not the turn's: it may have been a long one
     ++beats_;
     Heartbeats& beats = office_.service().heartbeats();
     beats.see(Part::Render, beats_, now);

@@ -61,7 +61,7 @@ class ExhibitRun {
     void shine(Instant now);
     void blink(LampCode code);
     void report(Instant now, bool finally = false);
-    void alive(Instant now);
+    void alive();
     int finish();
 
     bool done() const;
