@@ -57,12 +57,11 @@ def hand(bench, e):
         bench.want_lamp("green", "a show with a handle")
     with bench.step("the hand moves: the ball on the screen follows, the force comes back") as s:
         left = ball_at(e, "hand_left", lambda column: column < 15.0)
-        begin = time.time()
         stir(bench)
         right = ball_at(e, "hand_right", lambda column: column > left + 2.0)
         s.figure("the ball went from column, of 32", round(left, 1))
         s.figure("to", round(right, 1))
-        want_force(bench, s, begin)
+        want_force(bench, s)
     with bench.step("the handle is pulled out: that is noticed; plugged in: it is found again"):
         bench.falcon.tell("unplug")
         e.wait_for_status("the handle to be gone", lambda s: s["haptics"]["state"] != "ready", PATIENCE)
@@ -88,9 +87,7 @@ def button(bench, e):
             raise Failed(f"a force of {force} N after the stop")
         bench.bridge.tell(f"press {BUTTON} 1000")
         bench.want_lamp("green", "a show with a handle")
-        begin = time.time()
-        stir(bench)
-        want_force(bench, s, begin)
+        want_force(bench, s)
 
 
 def stir(bench):
@@ -100,9 +97,19 @@ def stir(bench):
         time.sleep(3)
 
 
-def want_force(bench, step, since):
-    force = bench.peak_force_n(since)
+def want_force(bench, step):
+    """Fails unless somebody who stirs feels something. A device that answers too late takes the force away until a reset; an emulated
+    one on a slow machine does so now and then: the button, and once more."""
+    for tries in range(1, 7):
+        begin = time.time()
+        stir(bench)
+        force = bench.peak_force_n(begin)
+        if force > 0.02:
+            break
+        bench.bridge.tell(f"press {BUTTON} 1000")
+        time.sleep(5)
     step.figure("largest force [N]", round(force, 3))
+    step.figure("tries", tries)
     if not 0.02 < force < 8.0:
         raise Failed(f"the force was {force} N at most")
 
