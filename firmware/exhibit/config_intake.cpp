@@ -225,6 +225,8 @@ std::optional<ConfigOffer> ConfigIntake::consider(ConfigSet set) {
 
 std::optional<ConfigOffer> ConfigIntake::poll(Instant now) {
     if (setup_.factory_only) return std::nullopt;
+    // Panel, hand and screen were opened as start() said, whatever comes before the first scene is built.
+    if (!in_force_ && open_) in_force_ = open_->set.exhibit.exhibit;
     if (is_ready(keeping_)) {
         keeping_.get();
         publish();

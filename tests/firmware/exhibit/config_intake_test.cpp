@@ -376,6 +376,18 @@ TEST_F(Exhibits, LetANewerFileOvertakeWhatIsBeingBuiltForTheStart) {
     EXPECT_EQ(answer()["pending_restart"][0]["key"], "haptics");
 }
 
+TEST_F(Exhibits, OvertakenBeforeAnythingIsBuiltKeepWhatWasOpened) {
+    write("exhibit.toml", "haptics = \"none\"\n");
+    start(false);
+    write("exhibit.toml", "haptics = \"emulated\"\n");
+    const auto second = pass(1s);
+    ASSERT_TRUE(second);
+    intake_->building(second->hash);
+    EXPECT_EQ(second->exhibit.haptics, HapticsChoice::None) << "it was opened with that";
+    intake_->accepted(second->hash, now_);
+    EXPECT_EQ(answer()["pending_restart"].size(), 1u);
+}
+
 TEST_F(Exhibits, BuildOnWhenWhatOvertakesCannotBeUsed) {
     write("exhibit.toml", "max_force_n = 3\n");
     const ConfigOffer first = start(false);
