@@ -88,7 +88,7 @@ std::optional<ConfigIntake::Objection> ConfigIntake::objection(const ConfigSet& 
     if (set.files.exhibit.none()) {
         const bool had_some = running_ ? report_.source != ConfigSource::Factory
                               : open_  ? open_->source != ConfigSource::Factory
-                                       : last_good_.has_value();
+                                       : last_good_.has_value() || memory_.unreadable() > 0;
         if (!had_some) return std::nullopt;
         return because(ConfigResult::Refused,
                        "no settings are here any more; for the factory's put an exhibit.toml "
@@ -114,6 +114,7 @@ ConfigOffer ConfigIntake::start() {
             return offer(*last_good_, ConfigSource::LastGood);
     }
     ConfigSet set = factory_set(setup_.orders);
+    report_.stands_in = setup_.factory_only || report_.result != ConfigResult::Applied;
     if (contains(refused_, set.hash)) throw ConfigError(report_.errors);
     if (!set.good()) throw ConfigError(set.diagnostics);
     return offer(std::move(set), ConfigSource::Factory);
@@ -175,6 +176,7 @@ void ConfigIntake::accepted(const std::string& hash, Instant now) {
     open_.reset();
     if (source == ConfigSource::New && hash == report_.hash) report_.result = ConfigResult::Applied;
     report_.source = source;
+    report_.stands_in &= source == ConfigSource::Factory || !report_.pending_restart.empty();
     report_.running_hash = hash;
     report_.applied_at = utc_now();
     report_.probation = !proven;

@@ -54,6 +54,7 @@ std::string to_json(const ConfigReport& r) {
            {"running_hash", r.running_hash},
            {"result", to_word(r.result)},
            {"source", to_word(r.source)},
+           {"stands_in", r.stands_in},
            {"applied_at", r.applied_at.empty() ? Json() : Json(r.applied_at)},
            {"probation", r.probation},
            {"errors", Json::array()},

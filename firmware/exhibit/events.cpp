@@ -57,7 +57,9 @@ constexpr EventKind kKinds[] = {
      "The line names file, line and column, and so does status/config.json. Mend the file; `eddy "
      "check-config` tries it before."},
     {Event::ConfigFellBack, "config_fell_back", "96dcb19211bb4b27a01356e358a2e9af", Priority::Error,
-     "The settings led to a failure: the last good ones, or those of the factory, are in force.",
+     "The settings led to a failure: the last good ones, or those of the factory, are in force; with the "
+     "factory's there is no "
+     "force, for they know of no stop input.",
      "Mend the settings that were put aside; the line names them."},
     {Event::DeviceFound, "device_found", "23e09ae1d05e414d8fa1577cd2d53abc", Priority::Notice,
      "The haptic device is there and ready.", "Nothing."},

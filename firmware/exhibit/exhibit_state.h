@@ -17,7 +17,8 @@ struct ExhibitFacts {
     Presence presence = Presence::Nobody;
     bool has_screen = true;     ///< it has one, or is not to have one
     bool button_stuck = false;  ///< or a line of the panel is away
-    bool fell_back = false;     ///< it runs with older settings than those in its folder
+    bool fell_back =
+        false;  ///< it runs with other settings than those in its folder: older ones, or the factory's
 };
 
 /// Pure: the state for status.json, metrics and people far away.

@@ -128,7 +128,9 @@ void ExhibitRun::open() {
     office_.service().preparing(clock_.now(), "reading the settings");
     const bool factory = take_marker(run_folder(options_) / kFactoryMarker);
     if (factory)
-        office_.say(Event::ConfigFellBack, "the factory's settings, for the button was held at the start");
+        office_.say(
+            Event::ConfigFellBack,
+            "the factory's settings, and no force until the next start, for the button was held at this one");
     settings_.emplace(options_,
                       ConfigIntake::Setup{.folder = options_.config,
                                           .state_dir = state_dir_,
@@ -161,7 +163,7 @@ void ExhibitRun::open_hand() {
     hand_.emplace(std::move(device.device), std::move(device.name), loop_settings(exhibit),
                   flights_folder(exhibit), panel_ ? &panel_->stop_input() : nullptr);
     hand_->orders().set_ceiling(exhibit.max_force_n);
-    hand_->orders().allow(!verdict_.safe);
+    allow_force();
     if (crash_) crash_->watch(hand_->flights());
 }
 
@@ -333,9 +335,14 @@ void ExhibitRun::heed_hours(Instant now) {
     if (state.open == is_open_) return;
     is_open_ = state.open;
     office_.say(is_open_ ? Event::Opened : Event::Closed, describe(state));
-    hand_->orders().allow(is_open_ && !verdict_.safe);
+    allow_force();
     front_->set_awake(is_open_);
     if (is_open_) begin_anew("it opens");
+}
+
+/// The factory's settings name no stop input: where they stand in for the owner's there is one, perhaps, that nobody looks at.
+void ExhibitRun::allow_force() {
+    hand_->orders().allow(is_open_ && !verdict_.safe && !settings_->report().stands_in);
 }
 
 void ExhibitRun::begin_anew(const std::string& why) {
@@ -393,6 +400,7 @@ void ExhibitRun::follow(const Playbill::News& news) {
 void ExhibitRun::apply_live() {
     const Exhibit& exhibit = settings_->exhibit();
     hand_->orders().set_ceiling(exhibit.max_force_n);
+    allow_force();
     if (front_->plays()) front_->act().show_cost(exhibit.overlay == OverlayChoice::Cost);
     visitors_->set_idle_after(Seconds(exhibit.unattended.idle_after_s));
     opening_.emplace(exhibit.hours);
@@ -403,16 +411,17 @@ void ExhibitRun::apply_live() {
 
 ExhibitFacts ExhibitRun::facts() const {
     const LoopReport& loop = hand_->report();
-    return {.first_frame = first_frame_,
-            .open = is_open_,
-            .safe = verdict_.safe,
-            .has_device = hand_->has_device(),
-            .device = loop.device,
-            .force = loop.reason,
-            .presence = presence_,
-            .has_screen = settings_->exhibit().display != DisplayChoice::Kms || front_->has_screen(),
-            .button_stuck = button_stuck_ || !trouble_.empty(),
-            .fell_back = settings_->report().source == ConfigSource::LastGood};
+    return {
+        .first_frame = first_frame_,
+        .open = is_open_,
+        .safe = verdict_.safe,
+        .has_device = hand_->has_device(),
+        .device = loop.device,
+        .force = loop.reason,
+        .presence = presence_,
+        .has_screen = settings_->exhibit().display != DisplayChoice::Kms || front_->has_screen(),
+        .button_stuck = button_stuck_ || !trouble_.empty(),
+        .fell_back = settings_->report().source == ConfigSource::LastGood || settings_->report().stands_in};
 }
 
 void ExhibitRun::blink(LampCode code) {

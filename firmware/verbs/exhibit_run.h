@@ -57,6 +57,7 @@ class ExhibitRun {
     /// What became of the act that was announced.
     void follow(const Playbill::News& news);
     void apply_live();
+    void allow_force();
     void begin_anew(const std::string& why);
     void shine(Instant now);
     void blink(LampCode code);

@@ -24,7 +24,9 @@ RunSettings::RunSettings(const RunOptions& options, const ConfigIntake::Setup& s
 /// Settings from a file that no run can carry out are as bad as those that cannot be read; orders of the command line end it.
 void RunSettings::choose() {
     for (;;) {
+        const std::uint64_t refused = report().refused;
         ConfigOffer offer = intake_.start();
+        tell_what_is_wrong(refused);
         exhibit_ = with_options(offer.exhibit, options_);
         scene_ = offer.scene.scene;
         try {
@@ -42,12 +44,15 @@ void RunSettings::choose() {
 void RunSettings::heed() {
     const std::uint64_t refused = report().refused;
     std::optional<ConfigOffer> offer = intake_.poll(clock_.now());
-    if (report().refused > refused) {
-        for (const Diagnostic& error : report().errors) office_.say(Event::ConfigRejected, to_string(error));
-        news_.refused = true;
-        good_ = false;
-    }
+    tell_what_is_wrong(refused);
     if (offer) take(std::move(*offer));
+}
+
+void RunSettings::tell_what_is_wrong(std::uint64_t refused) {
+    if (report().refused == refused) return;
+    for (const Diagnostic& error : report().errors) office_.say(Event::ConfigRejected, to_string(error));
+    news_.refused = true;
+    good_ = false;
 }
 
 void RunSettings::take(ConfigOffer offer) {
@@ -109,7 +114,7 @@ void RunSettings::failed(const std::string& why) {
 }
 
 void RunSettings::taken(const ConfigOffer& offer) {
-    const bool first = nothing_runs();
+    const bool first = nothing_runs(), stood_in = report().stands_in;
     intake_.accepted(offer.hash, clock_.now());
     news_.apply = true;
     good_ = report().result == ConfigResult::Applied;
@@ -117,6 +122,14 @@ void RunSettings::taken(const ConfigOffer& offer) {
     office_.journal().set_config_hash(offer.hash);
     if (offer.source == ConfigSource::LastGood)
         office_.say(Event::ConfigFellBack, "the last good settings, for those in the folder cannot be used");
+    if (offer.source == ConfigSource::Factory && report().stands_in && !good_)
+        office_.say(
+            Event::ConfigFellBack,
+            "the factory's settings stand in for the owner's: no force, for they know of no stop input; "
+            "mend the owner's (eddy check-config), then start the program again");
+    if (offer.source == ConfigSource::New && stood_in && report().stands_in)
+        office_.say(Event::ConfigFellBack,
+                    "still no force: some of the owner's settings wait for the next start of the program");
     if (first) return;
     std::string keys;
     for (const KeyChange& change : offer.changes)

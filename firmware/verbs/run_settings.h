@@ -53,6 +53,8 @@ class RunSettings {
 
   private:
     void choose();
+    /// If more was refused than before.
+    void tell_what_is_wrong(std::uint64_t refused);
     void take(ConfigOffer offer);
     void overtake(ConfigOffer offer);
     void taken(const ConfigOffer& offer);

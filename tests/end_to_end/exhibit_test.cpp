@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "firmware/haptic/force_gate.h"
 #include "tests/end_to_end/program.h"
 #include "tests/firmware/exhibit/manager_socket.h"
 
@@ -153,6 +154,25 @@ TEST_F(ExhibitEndToEnd, StartsWithWhatWasGoodIfTheNewestKilledIt) {
     EXPECT_EQ(answer().at("source"), "factory") << "there is nothing that was ever good";
     exhibit.send(SIGTERM);
     EXPECT_EQ(exhibit.wait().status, 0);
+}
+
+TEST_F(ExhibitEndToEnd, GivesNoForceWhileTheFactorysSettingsStandInForTheOwners) {
+    drop("max_force_n = 99\n[gpio]\nbutton = \"bridge:0\"\nstop = \"bridge:1\"\n");
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    const auto force = [&] { return read("status.json").at("haptics").at("force").get<std::string>(); };
+    EXPECT_TRUE(in_time([&] { return steps() > 10; }));
+    EXPECT_EQ(force(), to_string(GateReason::Disabled));
+    EXPECT_EQ(read("status.json").at("exhibit").at("state"), "degraded");
+    EXPECT_EQ(answer().at("stands_in"), true) << answer();
+    drop("max_force_n = 3\n");
+    EXPECT_TRUE(in_time([&] { return force() != to_string(GateReason::Disabled); }));
+    EXPECT_EQ(answer().at("stands_in"), false) << answer();
+    exhibit.send(SIGTERM);
+    const Ended ended = exhibit.wait();
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("exhibit.toml:1:15: max_force_n")) << "the cause";
+    EXPECT_THAT(ended.err, HasSubstr("stand in for the owner's: no force"));
 }
 
 TEST_F(ExhibitEndToEnd, ReadsWhatIsDroppedWhileItPreparesItsFirstScene) {

@@ -486,6 +486,51 @@ TEST_F(Exhibits, OfferAGoodFileWithinASecondOfItsLastByteAndPollInNoTime) {
     EXPECT_LT(poll_ms[poll_ms.size() / 2], 1.0);
 }
 
+TEST_F(Exhibits, SayWhenTheFactorysStandInForThoseOfTheOwner) {
+    const auto stands_in = [&] { return answer()["stands_in"].get<bool>(); };
+    start();
+    EXPECT_FALSE(stands_in()) << "there are no others";
+    write("exhibit.toml", "max_force_n = \n");
+    start(false);
+    EXPECT_TRUE(intake_->report().stands_in) << "from the first moment";
+    start();
+    EXPECT_TRUE(stands_in());
+    write("exhibit.toml", "# the factory's, as the owner wants\n");
+    ASSERT_TRUE(take());
+    EXPECT_FALSE(stands_in());
+    safe_mode_ = true;
+    start();
+    EXPECT_TRUE(intake_->report().stands_in) << "nobody has looked for others";
+}
+
+TEST_F(Exhibits, SayThatTheFactorysStandInUntilTheOwnersAreInForceWhole) {
+    write("exhibit.toml", "[gpio]\nbutton = \"bridge:0\"\nstop = \"bridge:1\"\nmax_force_n = 3\n");
+    start();
+    EXPECT_EQ(answer()["source"], "factory");
+    EXPECT_EQ(answer()["stands_in"], true);
+    write("exhibit.toml", "max_force_n = 3\n[gpio]\nbutton = \"bridge:0\"\nstop = \"bridge:1\"\n");
+    ASSERT_TRUE(take());
+    EXPECT_EQ(answer()["source"], "new");
+    EXPECT_EQ(answer()["stands_in"], true) << "the stop input waits for a start";
+    crash();
+    std::filesystem::remove_all(scratch_.path() / "state/config");
+    start();
+    EXPECT_EQ(answer()["stands_in"], false);
+}
+
+TEST_F(Exhibits, StandInForSettingsThatWentWithTheDisk) {
+    write("exhibit.toml", "max_force_n = 3\n");
+    start();
+    pass(31s);
+    crash();
+    std::filesystem::remove(scratch_.path() / "eddy/exhibit.toml");
+    scratch_.write("state/config/last-good", "torn");
+    start();
+    EXPECT_EQ(answer()["source"], "factory");
+    EXPECT_EQ(answer()["stands_in"], true);
+    EXPECT_EQ(answer()["result"], "refused");
+}
+
 TEST_F(Exhibits, ReadNothingInSafeMode) {
     write("exhibit.toml", "max_force_n = 3\n");
     safe_mode_ = true;
