@@ -34,8 +34,12 @@ constexpr EventKind kKinds[] = {
      "A record of a crash was found, with the last lines of the log and the last seconds of the hand.",
      "Keep the files it names and report them; `eddy replay` shows the seconds of the hand."},
     {Event::Hangs, "hangs", "623c1bc71d83410ea6e76b7f5a67b137", Priority::Error,
-     "A part of the program does not get on; the service manager will end it and start it again.",
-     "Report it, with the crash record of the next start."},
+     "A part of the program does not get on; the service manager will end it and start it again. But if it "
+     "is button and "
+     "lamps: then the show goes on, without force where a stop input is wired.",
+     "Report it, with the crash record of the next start. If it is button and lamps: unplug their USB "
+     "bridge, plug it in again, "
+     "and click."},
     {Event::Opened, "opened", "8dbf1c6d504c49b89a07c09a8928c45f", Priority::Info, "The opening hours begin.",
      "Nothing."},
     {Event::Closed, "closed", "e26d5bcad92f40ba843f9eab28dac2ce", Priority::Info,

@@ -16,7 +16,7 @@ struct ExhibitFacts {
     GateReason force = GateReason::Open;
     Presence presence = Presence::Nobody;
     bool has_screen = true;     ///< it has one, or is not to have one
-    bool button_stuck = false;  ///< or a line of the panel is away
+    bool button_stuck = false;  ///< or a line of the panel is away, or all of it hangs
     bool fell_back =
         false;  ///< it runs with other settings than those in its folder: older ones, or the factory's
 };

@@ -15,7 +15,7 @@ constexpr std::size_t kAtOnce = 4096;
 }  // namespace
 
 HandSide::HandSide(std::unique_ptr<HapticDevice> device, std::string name, const HapticLoopSettings& settings,
-                   const std::filesystem::path& flights, const std::atomic<bool>* stop_input)
+                   const std::filesystem::path& flights, const StopInput* stop_input)
     : device_(std::move(device)), name_(std::move(name)), trace_(kTraced), ticks_(kAtOnce) {
     if (!device_) return;
     flights_ = std::make_unique<FlightRecorder>(settings);

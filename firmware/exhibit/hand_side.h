@@ -24,7 +24,7 @@ class HandSide {
     /// not kept.
     /// `stop_input`, if any: looked at in every tick, see HapticLoop. It must outlive this.
     HandSide(std::unique_ptr<HapticDevice> device, std::string name, const HapticLoopSettings& settings,
-             const std::filesystem::path& flights, const std::atomic<bool>* stop_input = nullptr);
+             const std::filesystem::path& flights, const StopInput* stop_input = nullptr);
     /// The last thing that is sent is zero.
     ~HandSide() { end(); }
     HandSide(const HandSide&) = delete;

@@ -26,4 +26,10 @@ std::optional<Part> Heartbeats::hanging(Instant now) const {
     return std::nullopt;
 }
 
+bool Heartbeats::needs_restart(Instant now) const {
+    const std::optional<Part> part = hanging(now);
+    static_assert(kParts[std::size(kParts) - 1].value == Part::Gpio, "the last: no other hangs");
+    return part && *part != Part::Gpio;
+}
+
 }  // namespace eddy

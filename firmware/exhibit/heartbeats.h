@@ -40,6 +40,9 @@ class Heartbeats {
 
     /// The first part that hangs, if any.
     std::optional<Part> hanging(Instant now) const;
+    /// Whether one does that a new process can be the cure for. Button and lamps are none: their bridge would hang that, too, before
+    /// its first frame, and meanwhile the force is off (StopInput) and the show goes on.
+    bool needs_restart(Instant now) const;
 
   private:
     struct Beat {

@@ -11,8 +11,8 @@ namespace eddy {
 
 class Panel::Thread {
   public:
-    Thread(Gpio& gpio, const GpioConfig& config, Instant patience) : work(gpio, config), patience_(patience) {
-        look();
+    Thread(Gpio& gpio, const GpioConfig& config, const Clock& clock, Instant patience)
+        : work(gpio, config), clock_(clock), patience_ends_(clock.now() + patience) {
         thread_ = std::thread([this] { run(); });
     }
     ~Thread() {
@@ -23,21 +23,17 @@ class Panel::Thread {
     Thread(const Thread&) = delete;
     Thread& operator=(const Thread&) = delete;
 
+    bool settled() const { return work.stop_is_known() || clock_.now() >= patience_ends_; }
+
     PanelWork work;
-    std::atomic<bool> settled{false};
 
   private:
     void run() {
         pthread_setname_np(pthread_self(), "eddy:panel");
         while (!end_.load(std::memory_order_relaxed)) {
+            work.work(clock_.now());
             wait();
-            look();
         }
-    }
-    void look() {
-        const Instant now = clock_.now();
-        work.work(now);
-        if (work.stop_is_known() || now >= patience_) settled.store(true, std::memory_order_release);
     }
     /// For the next edge, or kPeriod.
     void wait() {
@@ -49,14 +45,14 @@ class Panel::Thread {
         poll(files, count, static_cast<int>(kPeriodMs));
     }
 
-    RealClock clock_;
-    const Instant patience_;
+    const Clock& clock_;
+    const Instant patience_ends_;
     std::atomic<bool> end_{false};
     std::thread thread_;
 };
 
-Panel::Panel(Gpio& gpio, const GpioConfig& config, Instant patience)
-    : thread_(std::make_unique<Thread>(gpio, config, patience)) {}
+Panel::Panel(Gpio& gpio, const GpioConfig& config, const Clock& clock, Instant patience)
+    : thread_(std::make_unique<Thread>(gpio, config, clock, patience)) {}
 Panel::~Panel() = default;
 
 void Panel::show(LampCode code) {
@@ -65,11 +61,11 @@ void Panel::show(LampCode code) {
 PanelNews Panel::news() {
     return thread_->work.news();
 }
-const std::atomic<bool>& Panel::stop_input() const {
+const StopInput& Panel::stop_input() const {
     return thread_->work.stop_input();
 }
 bool Panel::settled() const {
-    return thread_->settled.load(std::memory_order_acquire);
+    return thread_->settled();
 }
 HandleLight Panel::handle_light() const {
     return thread_->work.handle_light();

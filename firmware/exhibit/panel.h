@@ -1,11 +1,11 @@
 #pragma once
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 
 #include "config/exhibit.h"
 #include "firmware/exhibit/lamps.h"
+#include "firmware/haptic/stop_input.h"
 #include "hal/gpio/gpio.h"
 
 namespace eddy {
@@ -37,8 +37,9 @@ class Panel {
     /// it counts as pressed, so that the day does not begin with a stop.
     static constexpr Instant kPatience = std::chrono::seconds(60);
 
-    /// `gpio` must outlive it. Throws nothing but for want of memory or threads: what cannot be had is told in news().trouble.
-    Panel(Gpio& gpio, const GpioConfig& config, Instant patience = kPatience);
+    /// `gpio` and `clock` must outlive it. Throws nothing but for want of memory or threads: what cannot be had is told in
+    /// news().trouble. Waits for no line: a bridge may hang.
+    Panel(Gpio& gpio, const GpioConfig& config, const Clock& clock, Instant patience = kPatience);
     /// All lamps are dark then.
     ~Panel();
     Panel(const Panel&) = delete;
@@ -53,8 +54,8 @@ class Panel {
     PanelNews news();
     /// From then on stop_input() is true to what its line says, or nobody waits for the line any longer.
     bool settled() const;
-    /// For HapticLoop, which must not begin before settled(). Never true where there is no stop input.
-    const std::atomic<bool>& stop_input() const;
+    /// For HapticLoop, which must not begin before settled(), on the same clock. Never pressed where there is no stop input.
+    const StopInput& stop_input() const;
     /// For HapticExchange::light, of the code that is shown now.
     HandleLight handle_light() const;
     /// Counts on, a hundred times a second or more, while all is well with this thread.

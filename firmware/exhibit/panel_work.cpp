@@ -17,6 +17,7 @@ PanelWork::PanelWork(Gpio& gpio, const GpioConfig& config)
       green_(gpio, config.lamp_green, lamp_of(config)),
       amber_(gpio, config.lamp_amber, lamp_of(config)),
       red_(gpio, config.lamp_red, lamp_of(config)),
+      stopped_(stop_.wanted()),
       stop_input_(stop_.wanted()) {}
 
 void PanelWork::work(Instant now) {
@@ -32,13 +33,15 @@ void PanelWork::see_stop(Instant now) {
     if (!stop_.wanted()) return;
     const std::optional<bool> pressed = stop_.read(now);
     const bool first = pressed && !stop_seen_;
-    if (pressed) stop_seen_ = true;
     if (pressed.value_or(true)) {
         stop_pressed_at_ = now;
-        stop_input_.store(true, std::memory_order_relaxed);
+        stopped_ = true;
     } else if (first || now - stop_pressed_at_ >= kStopRests) {
-        stop_input_.store(false, std::memory_order_relaxed);
+        stopped_ = false;
     }
+    // As of before the look: a line that answers late tells of then.
+    stop_input_.found(stopped_, now);
+    if (pressed) stop_seen_ = true;
 }
 
 void PanelWork::see_button(Instant now) {
@@ -52,7 +55,7 @@ void PanelWork::see_button(Instant now) {
 }
 
 LampCode PanelWork::code_now() const {
-    if (stop_input_.load(std::memory_order_relaxed)) return LampCode::Stopped;
+    if (stopped_) return LampCode::Stopped;
     switch (button_.phase()) {
         case Button::Phase::Guide:
             return LampCode::Guide;
@@ -87,7 +90,7 @@ void PanelWork::darken(Instant now) {
 void PanelWork::tell() {
     const std::lock_guard lock(mutex_);
     ring_ = ring(player_.code(), player_.shown());
-    news_.stop_pressed = stop_input_.load(std::memory_order_relaxed);
+    news_.stop_pressed = stopped_;
     news_.button_stuck = button_.phase() == Button::Phase::Stuck;
     news_.lost = 0;
     news_.trouble.clear();

@@ -5,6 +5,7 @@
 
 #include "firmware/exhibit/button.h"
 #include "firmware/exhibit/panel.h"
+#include "firmware/haptic/stop_input.h"
 #include "hal/gpio/kept_line.h"
 
 namespace eddy {
@@ -15,7 +16,7 @@ class PanelWork {
     /// A stop input counts as let go when it has been for so long without a break.
     static constexpr Instant kStopRests = std::chrono::milliseconds(20);
 
-    /// `gpio` must outlive it. Without a stop input stop_input() is false; else true until work() has found its line let go.
+    /// `gpio` must outlive it. Without a stop input stop_input() is never pressed; else it is until work() has found its line let go.
     PanelWork(Gpio& gpio, const GpioConfig& config);
 
     /// Looks at the inputs and drives the lamps. Every Panel::kPeriod, and when there are edges.
@@ -29,7 +30,7 @@ class PanelWork {
 
     void show(LampCode code) { asked_.store(code, std::memory_order_relaxed); }
     PanelNews news();
-    const std::atomic<bool>& stop_input() const { return stop_input_; }
+    const StopInput& stop_input() const { return stop_input_; }
     HandleLight handle_light() const;
     std::uint64_t beats() const { return beats_.load(std::memory_order_relaxed); }
 
@@ -43,11 +44,12 @@ class PanelWork {
     KeptLine button_line_, stop_, green_, amber_, red_;
     Button button_;
     LampPlayer player_;
-    bool stop_seen_ = false;
+    std::atomic<bool> stop_seen_{false};
+    bool stopped_;
     Instant stop_pressed_at_{0};  // last seen so
 
     std::atomic<LampCode> asked_{LampCode::Starting};
-    std::atomic<bool> stop_input_;
+    StopInput stop_input_;
     std::atomic<std::uint64_t> beats_{0};
     mutable std::mutex mutex_;
     // With the mutex held:

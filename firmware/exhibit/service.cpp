@@ -22,7 +22,7 @@ void Service::first_frame(Instant now) {
 }
 
 void Service::go_on(Instant now) {
-    if (!ready_ || !period_ || heartbeats_.hanging(now)) return;
+    if (!ready_ || !period_ || heartbeats_.needs_restart(now)) return;
     if (fed_ && now - *fed_ < *period_ / 4) return;
     fed_ = now;
     notify_.watchdog();

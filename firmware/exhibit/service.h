@@ -22,7 +22,7 @@ class Service {
     void preparing(Instant now, std::string_view what);
     /// The first frame is on the screen, or would be if there were one: ready.
     void first_frame(Instant now);
-    /// At least a few times a second from then on: the watchdog is fed while no part hangs.
+    /// At least a few times a second from then on: the watchdog is fed while no part hangs that needs a restart.
     void go_on(Instant now);
     /// What people read in systemctl status; sent when it is another, once a second at most.
     void say(Instant now, std::string_view line);

@@ -6,7 +6,7 @@ namespace eddy {
 
 HapticLoop::HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace& trace,
                        const HapticLoopSettings& settings, FlightRecorder* flights,
-                       const std::atomic<bool>* stop_input)
+                       const StopInput* stop_input)
     : device_(device),
       exchange_(exchange),
       trace_(trace),
@@ -27,7 +27,7 @@ void HapticLoop::tick(Instant now) {
                    .orders = exchange_.orders.newest()};
     if (closing_) in.orders.enabled = false;
     // An order like any other from here on: the flight recorder keeps it, and a rerun obeys it.
-    if (stop_input_ && stop_input_->load(std::memory_order_relaxed)) in.orders.stop = true;
+    if (stop_input_ && stop_input_->pressed(now)) in.orders.stop = true;
 
     if (flights_) flights_->begin_tick(state_);
     const LawOutput out = hand_tick(state_, in, step);

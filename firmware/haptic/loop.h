@@ -4,6 +4,7 @@
 #include "firmware/haptic/exchange.h"
 #include "firmware/haptic/flight_recorder.h"
 #include "firmware/haptic/hand_tick.h"
+#include "firmware/haptic/stop_input.h"
 #include "firmware/haptic/trace.h"
 #include "hal/clock.h"
 #include "hal/haptic/haptic_device.h"
@@ -23,10 +24,10 @@ inline constexpr int kClosingTicks = 10;
 class HapticLoop {
   public:
     /// All of these must outlive the loop. `flights` may be null: then no fault can be run again. `stop_input`, if there is one, is
-    /// looked at in every tick: while it is true it counts as HapticOrders::stop.
+    /// looked at in every tick: while it is pressed, or nobody has looked at its line lately, that counts as HapticOrders::stop.
     HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace& trace,
                const HapticLoopSettings& settings = {}, FlightRecorder* flights = nullptr,
-               const std::atomic<bool>* stop_input = nullptr);
+               const StopInput* stop_input = nullptr);
 
     /// One tick. `now` never goes back. For callers that keep time themselves (replay, tests).
     void tick(Instant now);
@@ -44,7 +45,7 @@ class HapticLoop {
     HapticExchange& exchange_;
     TickTrace& trace_;
     FlightRecorder* flights_;
-    const std::atomic<bool>* stop_input_;
+    const StopInput* stop_input_;
     HandState state_;
     LoopReport report_;
     Instant last_{0};       // time of the last tick

@@ -141,7 +141,7 @@ void ExhibitRun::open() {
     const Exhibit& exhibit = settings_->exhibit();
     if (is_wired(exhibit.gpio)) {
         gpio_ = make_real_gpio();
-        panel_.emplace(*gpio_, exhibit.gpio);
+        panel_.emplace(*gpio_, exhibit.gpio, clock_);
     }
     open_hand();
     if (!options_.record.empty()) prepare_folder("--record", options_.record);
@@ -420,7 +420,7 @@ ExhibitFacts ExhibitRun::facts() const {
         .force = loop.reason,
         .presence = presence_,
         .has_screen = settings_->exhibit().display != DisplayChoice::Kms || front_->has_screen(),
-        .button_stuck = button_stuck_ || !trouble_.empty(),
+        .button_stuck = button_stuck_ || !trouble_.empty() || hanging_ == Part::Gpio,
         .fell_back = settings_->report().source == ConfigSource::LastGood || settings_->report().stands_in};
 }
 
@@ -434,8 +434,10 @@ void ExhibitRun::shine(Instant now) {
     LampCode code = lamp_code(facts());
     if (guide_until_ && now < *guide_until_) code = LampCode::Guide;
     if (blink_until_ && now < *blink_until_) code = blink_;
-    panel_->show(shut_down_ ? LampCode::ShuttingDown : code);
-    hand_->exchange().light.publish(panel_->handle_light());
+    if (shut_down_) code = LampCode::ShuttingDown;
+    panel_->show(code);
+    // The ring speaks for lamps that hang.
+    hand_->exchange().light.publish(hanging_ == Part::Gpio ? ring(code, now) : panel_->handle_light());
 }
 
 Office::View ExhibitRun::view() const {
@@ -475,9 +477,24 @@ void ExhibitRun::alive() {
         beats.expect(Part::Haptic, now);
     beats.see(Part::Haptic, loop.ticks, now);
     if (panel_) beats.see(Part::Gpio, panel_->beats(), now);
-    if (const auto part = beats.hanging(now); part != std::exchange(hanging_, part) && part)
-        office_.say(Event::Hangs, fmt::format("a part of the program does not get on: {}", to_word(*part)));
+    if (const auto part = beats.hanging(now); part != hanging_) tell_of_hang(part);
     office_.service().go_on(now);
+}
+
+void ExhibitRun::tell_of_hang(std::optional<Part> part) {
+    const bool was_panel = hanging_ == Part::Gpio;
+    hanging_ = part;
+    if (part == Part::Gpio) {
+        office_.say(
+            Event::Hangs,
+            "button, stop input and lamps do not answer; a stop input counts as pressed until they do and "
+            "somebody clicks: unplug their USB bridge and plug it in again");
+        office_.count(&Usage::faults);
+    } else if (part) {
+        office_.say(Event::Hangs, fmt::format("a part of the program does not get on: {}", to_word(*part)));
+    } else if (was_panel) {
+        office_.say(Event::Note, "button, stop input and lamps answer again");
+    }
 }
 
 int ExhibitRun::finish() {

@@ -63,6 +63,7 @@ class ExhibitRun {
     void blink(LampCode code);
     void report(Instant now, bool finally = false);
     void alive();
+    void tell_of_hang(std::optional<Part> part);
     int finish();
 
     bool done() const;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cerrno>
 #include <functional>
 #include <thread>
@@ -51,7 +52,7 @@ struct Desk {
         run(50ms);
     }
     void press_stop(bool pressed) { gpio.set_high("bridge:1", pressed); }
-    bool stopped() { return work.stop_input().load(); }
+    bool stopped() { return work.stop_input().pressed(now); }
     std::string lit() const {
         std::string on;
         for (const char* name : {"G", "A", "R"})
@@ -288,7 +289,8 @@ struct DeskAndHand {
     void run(int ms) {
         for (int i = 0; i < ms; ++i) {
             if (rig.ticks % 10 == 0) desk.work.work(rig.now());
-            rig.stop_input = desk.stopped();
+            desk.now = rig.now();
+            rig.stop_input.found(desk.stopped(), desk.now);
             if (desk.work.news().resets > 0) {
                 ++rig.orders.restarts;
                 rig.order();
@@ -330,6 +332,22 @@ TEST(Panel, AStopTakesTheForceAwayUntilAClickBringsItBackSlowly) {
     EXPECT_EQ(rerun(*flight).differing, 0U);
 }
 
+TEST(Panel, AStopThatNobodyLooksAtTakesTheForceAwayUntilAClick) {
+    DeskAndHand all;
+    all.run(2000);
+    ASSERT_GT(all.force_n(), 4.0);
+    all.rig.run(520);  // the panel's thread hangs
+    EXPECT_EQ(all.force_n(), 0.0);
+    all.run(1000);
+    EXPECT_EQ(all.force_n(), 0.0) << "it is back: that is no restart";
+    EXPECT_EQ(all.rig.report().reason, GateReason::Stopped);
+    all.desk.gpio.set_high("bridge:0", false);
+    all.run(200);
+    all.desk.gpio.set_high("bridge:0", true);
+    all.run(2000);
+    EXPECT_GT(all.force_n(), 4.0);
+}
+
 TEST(Panel, AClickWhileTheStopIsPressedBringsNothingBack) {
     DeskAndHand all;
     all.run(2000);
@@ -356,20 +374,22 @@ bool soon(const std::function<bool()>& is) {
 }
 
 TEST(PanelThread, SeesStopAndButtonAndBeatsAndEndsInTheDark) {
+    const RealClock clock;
     EmulatedGpio gpio;
     Desk::make(gpio);
     {
-        Panel panel(gpio, all_wired());
-        EXPECT_TRUE(panel.settled());
-        EXPECT_FALSE(panel.stop_input());
+        Panel panel(gpio, all_wired(), clock);
+        const auto stopped = [&] { return panel.stop_input().pressed(clock.now()); };
+        EXPECT_TRUE(soon([&] { return panel.settled(); }));
+        EXPECT_FALSE(stopped());
         panel.show(LampCode::Show);
         EXPECT_TRUE(soon([&] { return gpio.is_high("G"); }));
         EXPECT_EQ(panel.handle_light(), HandleLight{.green = true});
         gpio.set_high("bridge:1", true);
-        EXPECT_TRUE(soon([&] { return panel.stop_input().load(); }));
+        EXPECT_TRUE(soon(stopped));
         EXPECT_TRUE(soon([&] { return gpio.is_high("R"); }));
         gpio.set_high("bridge:1", false);
-        EXPECT_TRUE(soon([&] { return !panel.stop_input().load(); }));
+        EXPECT_TRUE(soon([&] { return !stopped(); }));
         const std::uint64_t beats = panel.beats();
         EXPECT_TRUE(soon([&] { return panel.beats() > beats + 5; }));
         gpio.set_high("bridge:0", false);
@@ -383,6 +403,72 @@ TEST(PanelThread, SeesStopAndButtonAndBeatsAndEndsInTheDark) {
         for (const GpioLineInfo& line : chip.lines) EXPECT_FALSE(line.used) << "given back";
 }
 
+/// A bridge whose driver does not come back from a look while it hangs.
+class HangingGpio final : public Gpio {
+  public:
+    explicit HangingGpio(EmulatedGpio& gpio) : gpio_(gpio) {}
+    std::vector<GpioChip> chips() override { return gpio_.chips(); }
+    std::unique_ptr<GpioLine> request(const std::string& chip, unsigned offset,
+                                      const GpioWish& wish) override {
+        return std::make_unique<Line>(*this, gpio_.request(chip, offset, wish));
+    }
+    void hang(bool hangs) { hangs_ = hangs; }
+
+  private:
+    class Line final : public GpioLine {
+      public:
+        Line(const HangingGpio& gpio, std::unique_ptr<GpioLine> line) : gpio_(gpio), line_(std::move(line)) {}
+        bool active() override {
+            const bool was = line_->active();
+            while (gpio_.hangs_) std::this_thread::sleep_for(1ms);
+            return was;
+        }
+        void set(bool active) override { line_->set(active); }
+        int edges_fd() const override { return line_->edges_fd(); }
+        void forget_edges() override { line_->forget_edges(); }
+
+      private:
+        const HangingGpio& gpio_;
+        std::unique_ptr<GpioLine> line_;
+    };
+    EmulatedGpio& gpio_;
+    std::atomic<bool> hangs_{false};
+};
+
+TEST(PanelThread, ABridgeThatHangsStopsWithinHalfASecondAndUntilItAnswers) {
+    const RealClock clock;
+    EmulatedGpio emulated;
+    Desk::make(emulated);
+    HangingGpio gpio(emulated);
+    Panel panel(gpio, all_wired(), clock);
+    const auto stopped = [&] { return panel.stop_input().pressed(clock.now()); };
+    EXPECT_TRUE(soon([&] { return panel.settled() && !stopped(); }));
+    gpio.hang(true);
+    const Instant hung = clock.now();
+    EXPECT_TRUE(soon(stopped));
+    EXPECT_GT(clock.now() - hung, StopInput::kLookCounts - 50ms);
+    std::this_thread::sleep_for(50ms);
+    const std::uint64_t beats = panel.beats();
+    std::this_thread::sleep_for(50ms);
+    EXPECT_EQ(panel.beats(), beats) << "who watches it is told";
+    EXPECT_EQ(panel.news().resets, 0U) << "and may ask all the same";
+    gpio.hang(false);
+    EXPECT_TRUE(soon([&] { return !stopped(); }));
+}
+
+TEST(PanelThread, ABridgeThatHangsFromTheStartKeepsNobodyWaiting) {
+    const RealClock clock;
+    EmulatedGpio emulated;
+    Desk::make(emulated);
+    HangingGpio gpio(emulated);
+    gpio.hang(true);
+    const Panel panel(gpio, all_wired(), clock, 100ms);
+    EXPECT_FALSE(panel.settled());
+    EXPECT_TRUE(soon([&] { return panel.settled(); }));
+    EXPECT_TRUE(panel.stop_input().pressed(clock.now()));
+    gpio.hang(false);
+}
+
 TEST(PanelThread, AnEdgeWakesIt) {
     EmulatedGpio gpio;
     gpio.add("header", {"button", "stop"});
@@ -390,17 +476,18 @@ TEST(PanelThread, AnEdgeWakesIt) {
     config.button = "button";
     config.stop = "stop";
     gpio.set_high("stop", false);
-    Panel panel(gpio, config);
+    const RealClock clock;
+    Panel panel(gpio, config, clock);
     const std::uint64_t before = panel.beats();
     int edges = 0;
     // Each waits for the one before, so that none is joined with another: more beats than the clock alone gives.
-    const RealClock clock;
+    const Instant began = clock.now();
     while (edges < 200) {
         gpio.set_high("stop", ++edges % 2 == 1);
         const std::uint64_t seen = panel.beats();
         ASSERT_TRUE(soon([&] { return panel.beats() > seen; }));
     }
-    const auto by_the_clock = static_cast<std::uint64_t>(clock.now() / Panel::kPeriod);
+    const auto by_the_clock = static_cast<std::uint64_t>((clock.now() - began) / Panel::kPeriod);
     EXPECT_GE(panel.beats() - before, 150U);
     EXPECT_GT(panel.beats() - before, by_the_clock + 20);
 }
@@ -413,21 +500,23 @@ TEST(PanelThread, WaitsForABridgeThatComesUpLater) {
         std::this_thread::sleep_for(200ms);
         gpio.plug_in("bridge");
     });
-    const Panel panel(gpio, all_wired(), 60s);
+    const RealClock clock;
+    const Panel panel(gpio, all_wired(), clock, 60s);
     EXPECT_FALSE(panel.settled());
     EXPECT_TRUE(soon([&] { return panel.settled(); }));
-    EXPECT_FALSE(panel.stop_input());
+    EXPECT_FALSE(panel.stop_input().pressed(clock.now()));
     later.join();
 }
 
 TEST(PanelThread, DoesNotWaitForeverAndIsStoppedThen) {
     EmulatedGpio gpio;
-    const Panel panel(gpio, all_wired(), 100ms);
+    const RealClock clock;
+    const Panel panel(gpio, all_wired(), clock, 100ms);
     EXPECT_TRUE(soon([&] { return panel.settled(); }));
-    EXPECT_TRUE(panel.stop_input());
-    Panel unwired(gpio, GpioConfig{}, 60s);
+    EXPECT_TRUE(panel.stop_input().pressed(clock.now()));
+    Panel unwired(gpio, GpioConfig{}, clock, 60s);
     EXPECT_TRUE(unwired.settled());
-    EXPECT_FALSE(unwired.stop_input());
+    EXPECT_FALSE(unwired.stop_input().pressed(clock.now()));
     EXPECT_EQ(unwired.news().trouble, "");
 }
 

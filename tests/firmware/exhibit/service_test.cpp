@@ -87,6 +87,16 @@ TEST_F(ServiceTest, NoticesAHangingHandWithinTenSecondsThoughThePictureMoves) {
     EXPECT_EQ(service_.heartbeats().hanging(40s), Part::Haptic);
 }
 
+TEST_F(ServiceTest, ButtonAndLampsThatHangAreToldOfAndEndNothing) {
+    begin();
+    service_.heartbeats().expect(Part::Gpio, 0s);
+    run(0s, 40s, 40s);
+    EXPECT_GE(fed(), 15);
+    EXPECT_EQ(service_.heartbeats().hanging(40s), Part::Gpio);
+    run(40s, 80s, 40s);
+    EXPECT_LE(fed(), 2) << "but the hand that hangs as well does";
+}
+
 TEST_F(ServiceTest, AtTwoFramesASecondItLivesOn) {
     begin();
     for (Instant t = 0s; t < 60s; t += 500ms) {

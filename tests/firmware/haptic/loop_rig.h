@@ -14,7 +14,7 @@ struct LoopRig {
     TickTrace trace{20'000};
     HapticLoopSettings settings{};
     FlightRecorder flights{settings};
-    std::atomic<bool> stop_input{false};
+    StopInput stop_input{false};
     HapticLoop loop{device, exchange, trace, settings, &flights, &stop_input};
     HapticOrders orders{.enabled = true,
                         .tank_from_device = {.centre_m = glm::dvec3(0.1), .scale = 1.0},

@@ -13,6 +13,8 @@
 namespace eddy {
 namespace {
 
+using namespace std::chrono_literals;
+
 struct Condition {
     std::string name;
     GateReason reason;
@@ -23,7 +25,13 @@ const std::vector<Condition>& conditions() {
     static const std::vector<Condition> all{
         {"the stop input", GateReason::Stopped, [](LoopRig& r) { r.orders.stop = true, r.order(); }},
         {"the stop input that the loop itself looks at", GateReason::Stopped,
-         [](LoopRig& r) { r.stop_input = true; }},
+         [](LoopRig& r) { r.stop_input.found(true, r.now()); }},
+        {"nobody has looked at the stop input for half a second", GateReason::Stopped,
+         [](LoopRig& r) {
+             r.stop_input.found(false, r.now());
+             r.run(500);
+             EXPECT_GT(glm::length(r.device.commanded_n), 4.0) << "a look counts for so long";
+         }},
         {"pause, scene change, fluid reset", GateReason::Disabled,
          [](LoopRig& r) { r.orders.enabled = false, r.order(); }},
         {"a force that is no number", GateReason::NotFinite,
@@ -94,7 +102,7 @@ TEST(Safety, AfterEachTheForceComesBackSoftlyOrNotAtAll) {
         rig.run(20);  // the fluid's next answer
         rig.orders.enabled = true;
         rig.orders.stop = false;
-        rig.stop_input = false;
+        rig.stop_input.found(false, rig.now() + 10s);
         ++rig.orders.resets;
         ++rig.orders.restarts;
         rig.order();
