@@ -7,6 +7,14 @@
 #include <set>
 
 namespace eddy::gles {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Of a wait, between two pauses.
+constexpr std::chrono::nanoseconds kSlice = 100ms;
+
+}  // namespace
 
 void finish() {
     glFinish();
@@ -66,14 +74,36 @@ void Gpu::free_idle_textures() {
     });
 }
 
-void Gpu::pause() {
+void Gpu::pause(Next next) {
     if (!between_ || pauses_) return;
     struct Within {
         explicit Within(bool& flag) : flag_(flag) { flag_ = true; }
         ~Within() { flag_ = false; }
         bool& flag_;
     } within(pauses_);
-    between_();
+    between_(next);
+}
+
+void Gpu::finish() {
+    struct Fence {
+        const GLsync sync = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+        ~Fence() { glDeleteSync(sync); }
+    } fence;
+    // Without a fence, or with one that does not pass, it is the driver's affair, and that of whoever watches this program.
+    if (!fence.sync || !wait(fence.sync, kPatience)) glFinish();
+}
+
+bool Gpu::wait(void* fence, std::chrono::nanoseconds patience) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + patience;
+    for (;;) {
+        const auto slice = std::clamp<std::chrono::nanoseconds>(end - Clock::now(), 0ns, kSlice);
+        const GLenum state = glClientWaitSync(static_cast<GLsync>(fence), GL_SYNC_FLUSH_COMMANDS_BIT,
+                                              static_cast<GLuint64>(slice.count()));
+        if (state != GL_TIMEOUT_EXPIRED) return state != GL_WAIT_FAILED;
+        if (Clock::now() >= end) return false;
+        pause();
+    }
 }
 
 Gpu::Stage::Stage(Gpu& gpu, std::string_view name) : gpu_(gpu), outer_(gpu.stage_) {

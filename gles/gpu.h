@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <functional>
 #include <map>
 #include <string>
@@ -24,8 +25,14 @@ struct PassRecord {
     std::int64_t fetches = 0;  ///< texture fetches, as declared by the shader
 };
 
-/// Returns when the GPU has done everything it was asked to.
+/// Returns when the GPU has done everything it was asked to: for those who measure. Others take Gpu::finish().
 void finish();
+
+/// What follows a pause.
+enum class Next {
+    Compiling,  ///< the driver may compile: some take minutes for it, and nothing can be said meanwhile
+    Work        ///< anything else
+};
 
 /// The one place where GL state lives: textures, framebuffers, and who watches the passes go by.
 class Gpu {
@@ -65,10 +72,18 @@ class Gpu {
     void watch_stages(StageWatcher watcher) { watcher_ = std::move(watcher); }
 
     /// `between` is called in the middle of long work, often: before a pass is compiled, before it draws for the first time
-    /// (drivers put off a part of compiling until then), and at the begin of each stage. It may draw with passes of its own, of which
-    /// it does not hear, and may throw if the work is to be given up. Empty: nobody is called.
-    void on_pause(std::function<void()> between) { between_ = std::move(between); }
-    void pause();
+    /// (drivers put off a part of compiling until then), at the begin of each stage, and each tenth of a second of waiting for the
+    /// GPU. It may draw with passes of its own, of which it does not hear, and may throw if the work is to be given up. Empty: nobody
+    /// is called.
+    void on_pause(std::function<void(Next)> between) { between_ = std::move(between); }
+    void pause(Next next = Next::Work);
+
+    /// A GPU that has not done in this time what it was asked to is not slow, it hangs.
+    static constexpr std::chrono::seconds kPatience{120};
+    /// Returns when the GPU has done everything it was asked to, with pauses; none any more once it hangs.
+    void finish();
+    /// Until the fence (a GLsync) has passed, with pauses. False: it has not, in so long, or was lost.
+    bool wait(void* fence, std::chrono::nanoseconds patience);
 
     /// Records every pass from now on into `records` (null: stop).
     void record(std::vector<PassRecord>* records) { records_ = records; }
@@ -84,7 +99,7 @@ class Gpu {
     std::map<std::vector<std::uint64_t>, unsigned> framebuffers_;  // by the serials of their textures
     std::string stage_;
     StageWatcher watcher_;
-    std::function<void()> between_;
+    std::function<void(Next)> between_;
     bool pauses_ = false;
     std::vector<PassRecord>* records_ = nullptr;
 };

@@ -67,7 +67,7 @@ Pass::Pass(Gpu& gpu, std::string name, std::string_view shader, const AtlasLayou
       shader_(shader),
       target_(target),
       fetches_(declared_fetches(shader, switch_names(variant))) {
-    gpu.pause();
+    gpu.pause(Next::Compiling);
     program_ = gpu.programs().get({std::string(shader), switches(gpu, variant), declarations(target, variant),
                                    target.declaration("TARGET")});
 }
@@ -91,7 +91,7 @@ void Pass::require_all_given(const std::vector<Input>& inputs, const std::vector
 
 void Pass::draw(const std::vector<Input>& inputs, const std::vector<Uniform>& uniforms,
                 const std::vector<const Texture*>& outputs, const Region& region, Onto onto) {
-    if (!checked_) gpu_->pause();
+    if (!checked_) gpu_->pause(Next::Compiling);
     glBindFramebuffer(GL_FRAMEBUFFER, gpu_->framebuffer(outputs));
     const glm::ivec2 size = outputs[0]->size();
     glViewport(0, 0, size.x, size.y);

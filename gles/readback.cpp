@@ -7,10 +7,10 @@
 namespace eddy::gles {
 namespace {
 
-constexpr GLuint64 kPatienceNs = 10'000'000'000;
+constexpr std::chrono::seconds kPatience{10};
 /// Drivers may compile a pass when it is first drawn, and the first answer comes after all of them: with Mesa's zink over
 /// lavapipe, 20 s on a busy machine of two cores.
-constexpr GLuint64 kFirstPatienceNs = 120'000'000'000;
+constexpr std::chrono::seconds kFirstPatience = Gpu::kPatience;
 
 }  // namespace
 
@@ -45,11 +45,14 @@ void Readback::request(const Texture& texture, long tag) {
 std::optional<Readback::Result> Readback::take(bool wait) {
     if (under_way_ == 0) return std::nullopt;
     Slot& slot = slots_[first_];
-    const GLuint64 patience_ns = !wait ? 0 : answered_ ? kPatienceNs : kFirstPatienceNs;
-    const GLenum state =
-        glClientWaitSync(static_cast<GLsync>(slot.fence), GL_SYNC_FLUSH_COMMANDS_BIT, patience_ns);
-    if (state == GL_TIMEOUT_EXPIRED && !wait) return std::nullopt;
-    const bool done = state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+    bool done = false;
+    if (wait) {
+        done = gpu_->wait(slot.fence, answered_ ? kPatience : kFirstPatience);
+    } else {
+        const GLenum state = glClientWaitSync(static_cast<GLsync>(slot.fence), GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+        if (state == GL_TIMEOUT_EXPIRED) return std::nullopt;
+        done = state != GL_WAIT_FAILED;
+    }
     glDeleteSync(static_cast<GLsync>(slot.fence));
     slot.fence = nullptr;
     first_ = (first_ + 1) % slots_.size();

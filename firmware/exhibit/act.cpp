@@ -51,7 +51,7 @@ bool Act::prepare() {
     if (to_prepare_.empty()) return false;
     to_prepare_.back()();
     to_prepare_.pop_back();
-    gles::finish();
+    gpu_.finish();
     return !to_prepare_.empty();
 }
 
@@ -123,7 +123,7 @@ void Act::go_on(Instant now, Seconds interval) {
 }
 
 Seconds Act::beside_the_fluid(const std::function<void()>& work) {
-    gles::finish();  // of the fluid's step: that is its own
+    gpu_.finish();  // of the fluid's step: that is its own
     const RealClock clock;
     work();
     const Seconds took = clock.now();
@@ -140,6 +140,7 @@ void Act::fluid_update(Instant now, Seconds dt) {
     const long before = show_.fluid().steps();
     show_.update(now, dt, measure);
     steps_ = std::max(show_.fluid().steps() - before, 1L);
+    if (time) gpu_.finish();
     if (time && !measure)
         quality_.step_took((Stopwatch::now().wall_ms - start_ms) / static_cast<double>(steps_));
     step_rate_.add_step();

@@ -17,7 +17,7 @@ struct GivenUp {};
 class Pauses {
   public:
     Pauses(gles::Gpu& gpu, const std::function<bool()>& meanwhile) : gpu_(gpu) {
-        gpu_.on_pause([&meanwhile] {
+        gpu_.on_pause([&meanwhile](gles::Next) {
             if (!meanwhile()) throw GivenUp();
         });
     }

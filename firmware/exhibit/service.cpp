@@ -1,5 +1,7 @@
 #include "firmware/exhibit/service.h"
 
+#include <utility>
+
 namespace eddy {
 namespace {
 
@@ -36,12 +38,13 @@ void Service::say(Instant now, std::string_view line) {
 }
 
 void Service::long_work_begins() {
-    if (ready_ && period_) notify_.set_watchdog(kPreparation);
+    if (!ready_ || !period_ || std::exchange(long_work_, true)) return;
+    notify_.set_watchdog(kPreparation);
 }
 
 void Service::long_work_ends(Instant now) {
+    if (!std::exchange(long_work_, false)) return;
     heartbeats_.excuse(now);
-    if (!ready_ || !period_) return;
     notify_.set_watchdog(*period_);
     fed_.reset();
     go_on(now);

@@ -26,7 +26,8 @@ class Service {
     void go_on(Instant now);
     /// What people read in systemctl status; sent when it is another, once a second at most.
     void say(Instant now, std::string_view line);
-    /// Around work of this thread that may take long: a scene that is made.
+    /// Around work of this thread that may take long, as often as one likes: a scene that is made, a shader that is compiled beside the
+    /// show.
     void long_work_begins();
     void long_work_ends(Instant now);
     /// The settings are read anew; first_frame() is the end of it.
@@ -37,7 +38,7 @@ class Service {
     ServiceNotify& notify_;
     std::optional<Seconds> period_;
     Heartbeats heartbeats_;
-    bool ready_ = false;
+    bool ready_ = false, long_work_ = false;
     std::optional<Instant> fed_, extended_, said_at_;
     std::string said_;
 };

@@ -214,7 +214,10 @@ bool ExhibitRun::prelude(const std::string& what) {
 // ----------------------------------------------------------------------------------------------------- a turn
 
 void ExhibitRun::turn(Instant now, Seconds since_last) {
-    front_->gpu().on_pause([this] { alive(); });
+    front_->gpu().on_pause([this](gles::Next next) {
+        alive();
+        if (next == gles::Next::Compiling) office_.service().long_work_begins();
+    });
     if (front_->poll(now) == DisplayState::Lost) {
         lost_ = true;
         return;
@@ -234,6 +237,7 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
     heed_hand(now);
     shine(now);
     report(now);
+    office_.service().long_work_ends(clock_.now());
 }
 
 void ExhibitRun::draw(Instant now) {
@@ -375,7 +379,7 @@ void ExhibitRun::prepare_next() {
     std::optional<Playbill::News> news;
     if (front_->plays()) {
         // The last piece puts another act in the place of the one that plays: whichever it is then has lost that time.
-        gles::finish();
+        front_->gpu().finish();
         const RealClock clock;
         news = front_->prepare([this] {
             alive();
@@ -385,7 +389,6 @@ void ExhibitRun::prepare_next() {
     } else {
         news = front_->prepare([this] { return front_->wait(kMadeAnew, clock_.now()) && !asked_to_stop(); });
     }
-    office_.service().long_work_ends(clock_.now());
     if (news) follow(*news);
 }
 

@@ -65,9 +65,10 @@ class GpuPauses : public GlTest {
 };
 
 TEST_F(GpuPauses, ComeBeforeEachProgramAndEachFirstDrawButNotInTheirOwnWork) {
-    int pauses = 0;
-    gpu.on_pause([&] {
+    int pauses = 0, compiles = 0;
+    gpu.on_pause([&](Next next) {
         ++pauses;
+        compiles += next == Next::Compiling;
         coloured(gpu, pauses);
     });
     const std::size_t linked = gpu.programs().linked();
@@ -78,15 +79,17 @@ TEST_F(GpuPauses, ComeBeforeEachProgramAndEachFirstDrawButNotInTheirOwnWork) {
     const TexturePool::Lease picture = gpu.textures().lease({108, 8}, Format::RGBA8);
     for (int n = 0; n < 3; ++n) pass.draw({{"page", &*page}}, {{"corner", glm::vec2(0.0f)}}, {&*picture});
     EXPECT_EQ(pauses, 2) << "drivers compile at the first draw, too";
+    EXPECT_EQ(compiles, 2);
     { const Gpu::Stage stage(gpu, "a stage"); }
     EXPECT_EQ(pauses, 3);
+    EXPECT_EQ(compiles, 2);
     gpu.on_pause({});
     { const Gpu::Stage stage(gpu, "a stage"); }
     EXPECT_EQ(pauses, 3);
 }
 
 TEST_F(GpuPauses, LetTheWorkBeGivenUp) {
-    gpu.on_pause([] { throw 1; });
+    gpu.on_pause([](Next) { throw 1; });
     const std::size_t linked = gpu.programs().linked();
     EXPECT_THROW(coloured(gpu, 200), int);
     EXPECT_EQ(gpu.programs().linked(), linked);

@@ -128,6 +128,16 @@ TEST_F(ServiceTest, MakingASceneTakesAsLongAsItTakes) {
     EXPECT_EQ(service_.heartbeats().hanging(101s), std::nullopt);
 }
 
+TEST_F(ServiceTest, LongWorkBegunTwiceIsToldOnce) {
+    begin();
+    service_.long_work_begins();
+    service_.long_work_begins();
+    EXPECT_THAT(manager_.messages(), ElementsAre("WATCHDOG_USEC=180000000"));
+    service_.long_work_ends(1s);
+    service_.long_work_ends(2s);
+    EXPECT_THAT(manager_.messages(), ElementsAre("WATCHDOG_USEC=8000000", "WATCHDOG=1"));
+}
+
 TEST_F(ServiceTest, SaysALineWhenItIsAnotherAndOnceASecondAtMost) {
     service_.say(0s, "a");
     service_.say(2s, "a");
