@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "config/override.h"
+#include "firmware/built_from.h"
 #include "firmware/text_file.h"
 
 namespace eddy {
@@ -20,6 +21,10 @@ std::string boot_of_this_machine() {
     } catch (const std::runtime_error&) {
         return "unknown";
     }
+}
+
+std::string this_program() {
+    return fmt::format("{} ({})", EDDY_VERSION, kBuiltFrom);
 }
 
 std::string utc_now() {
@@ -57,7 +62,8 @@ bool ConfigOffer::needs_new_scene() const {
 ConfigIntake::ConfigIntake(Setup setup, Disk& disk)
     : setup_(std::move(setup)),
       memory_(setup_.state_dir.empty() ? std::filesystem::path() : setup_.state_dir / "config",
-              setup_.boot.empty() ? boot_of_this_machine() : setup_.boot, disk) {}
+              setup_.boot.empty() ? boot_of_this_machine() : setup_.boot,
+              setup_.program.empty() ? this_program() : setup_.program, disk) {}
 
 void ConfigIntake::refuse(ConfigResult result, std::vector<Diagnostic> errors) {
     report_.result = result;

@@ -34,7 +34,7 @@ struct ConfigOffer {
 ///     stopped() when the program ends because it was asked to
 ///
 /// A new configuration is on probation for 30 s: if the program dies in them it is on the black list from the next start on,
-/// and the last good one runs; if it does not, it is the last good one. A power cut alone condemns nobody (until the third).
+/// until another program is installed, and the last good one runs; if it does not, it is the last good one. A power cut alone condemns nobody (until the third).
 ///
 /// One thread. poll() neither waits nor reads files, but for a look at the folder each five seconds: reading, checking and
 /// keeping are done on a thread of their own. accepted() writes one small file to the disk and waits for that.
@@ -50,6 +50,7 @@ class ConfigIntake {
         SceneOrders orders{};
         bool factory_only = false;  ///< safe mode: files are neither read nor watched
         std::string boot{};         ///< another one after each start of the machine; empty: the kernel's
+        std::string program{};      ///< another one after each update; empty: this
     };
 
     static constexpr Instant kQuiet = std::chrono::milliseconds(250);

@@ -34,9 +34,10 @@ std::string copy_name(const WrittenFile& file) {
 
 }  // namespace
 
-ConfigMemory::ConfigMemory(std::filesystem::path folder, std::string boot, Disk& disk)
+ConfigMemory::ConfigMemory(std::filesystem::path folder, std::string boot, std::string program, Disk& disk)
     : folder_(std::move(folder)),
       boot_(std::move(boot)),
+      program_(std::move(program)),
       disk_(disk),
       last_good_(folder_ / "last-good", disk),
       probation_(folder_ / "probation", disk),
@@ -56,7 +57,11 @@ void ConfigMemory::attempt(Action action) {
 std::optional<std::string> ConfigMemory::judge() {
     if (folder_.empty()) return std::nullopt;
     try {
-        if (const auto text = black_list_.read()) black_listed_ = Json::parse(*text);
+        if (const auto text = black_list_.read())
+            for (const Json& one : Json::parse(*text))
+                black_listed_.push_back(one.is_string() ? Death{one.get<std::string>(), ""}
+                                                        : Death{one.at("hash").get<std::string>(),
+                                                                one.at("program").get<std::string>()});
     } catch (const std::exception&) {
         ++unreadable_;
     }
@@ -160,14 +165,18 @@ void ConfigMemory::end_probation() {
 }
 
 bool ConfigMemory::black_listed(const std::string& hash) const {
-    return std::find(black_listed_.begin(), black_listed_.end(), hash) != black_listed_.end();
+    return std::find(black_listed_.begin(), black_listed_.end(), Death{hash, program_}) !=
+           black_listed_.end();
 }
 
 void ConfigMemory::black_list(const std::string& hash) {
     if (black_listed(hash)) return;
-    black_listed_.push_back(hash);
+    black_listed_.push_back({hash, program_});
     if (black_listed_.size() > kMostBlackListed) black_listed_.erase(black_listed_.begin());
-    attempt([&] { black_list_.write(Json(black_listed_).dump()); });
+    Json list = Json::array();
+    for (const Death& death : black_listed_)
+        list.push_back({{"hash", death.hash}, {"program", death.program}});
+    attempt([&] { black_list_.write(list.dump()); });
 }
 
 }  // namespace eddy

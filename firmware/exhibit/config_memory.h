@@ -18,8 +18,10 @@ class ConfigMemory {
     static constexpr int kMostCuts = 3;
     static constexpr std::size_t kMostBlackListed = 64;
 
-    /// `folder` empty: nothing is remembered. `boot` is another string after each start of the machine.
-    ConfigMemory(std::filesystem::path folder, std::string boot, Disk& disk = real_disk());
+    /// `folder` empty: nothing is remembered. `boot` is another string after each start of the machine. What one `program` died under
+    /// another may be the cure for.
+    ConfigMemory(std::filesystem::path folder, std::string boot, std::string program,
+                 Disk& disk = real_disk());
 
     /// Looks what became of the one on probation when the program, or the machine, stopped: returns its hash if it is on the
     /// black list for that. To be asked once, at the start.
@@ -51,13 +53,17 @@ class ConfigMemory {
     void black_list(const std::string& hash);
 
     std::filesystem::path folder_;
-    std::string boot_;
+    std::string boot_, program_;
     Disk& disk_;
     StateFile last_good_, probation_, black_list_;
     std::string last_good_hash_;
     std::string on_probation_;
-    int cuts_ = 0;                           ///< that this one has seen while on probation
-    std::vector<std::string> black_listed_;  ///< oldest first
+    int cuts_ = 0;  ///< that this one has seen while on probation
+    struct Death {
+        std::string hash, program;  ///< written before programs were told apart: of none
+        bool operator==(const Death&) const = default;
+    };
+    std::vector<Death> black_listed_;  ///< oldest first
     int unreadable_ = 0;
     int failed_writes_ = 0;
     std::string trouble_;

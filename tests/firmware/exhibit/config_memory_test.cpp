@@ -23,8 +23,8 @@ class Memory : public testing::Test {
         for (const char* folder : {"eddy", "eddy/scenes", "eddy/meshes", "state"})
             std::filesystem::create_directory(scratch_.path() / folder);
     }
-    ConfigMemory memory(const std::string& boot = "1") const {
-        return {scratch_.path() / "state/config", boot};
+    ConfigMemory memory(const std::string& boot = "1", const std::string& program = "1.0") const {
+        return {scratch_.path() / "state/config", boot, program};
     }
     ConfigSet read() const { return read_config_set(scratch_.path() / "eddy", {}); }
     ConfigSet read(const std::string& text) const {
@@ -89,6 +89,32 @@ TEST_F(Memory, BlackListsWhatTheProgramDiedUnder) {
     EXPECT_TRUE(still.black_listed("bad"));
 }
 
+TEST_F(Memory, GivesWhatTheProgramDiedUnderAChanceWithAnotherProgram) {
+    memory().begin_probation("bad");
+    EXPECT_EQ(memory().judge(), "bad");
+    ConfigMemory updated = memory("2", "1.1");
+    EXPECT_EQ(updated.judge(), std::nullopt);
+    EXPECT_FALSE(updated.black_listed("bad"));
+    updated.begin_probation("bad");
+    EXPECT_EQ(memory("2", "1.1").judge(), "bad");
+    ConfigMemory back = memory("3", "1.0");
+    back.judge();
+    EXPECT_TRUE(back.black_listed("bad")) << "and that one has not forgotten";
+}
+
+TEST_F(Memory, ReadsABlackListFromBeforeProgramsWereToldApart) {
+    StateFile(scratch_.path() / "state/config/black-list").write("[\"bad\",\"worse\"]");
+    ConfigMemory updated = memory();
+    EXPECT_EQ(updated.judge(), std::nullopt);
+    EXPECT_EQ(updated.unreadable(), 0);
+    EXPECT_FALSE(updated.black_listed("bad")) << "another program died under it";
+    updated.begin_probation("bad");
+    ConfigMemory later = memory();
+    EXPECT_EQ(later.judge(), "bad");
+    EXPECT_TRUE(later.black_listed("bad"));
+    EXPECT_EQ(later.unreadable(), 0);
+}
+
 TEST_F(Memory, ForgivesPowerCutsButNotThreeInARow) {
     memory("1").begin_probation("new");
     ConfigMemory second = memory("2");
@@ -116,7 +142,7 @@ TEST_F(Memory, ThatCannotBeWrittenStopsNothing) {
     one.keep_as_last_good(read("max_force_n = 1\n"));
     EXPECT_EQ(one.failed_writes(), 2);
     EXPECT_NE(one.trouble(), "");
-    ConfigMemory none("", "1");
+    ConfigMemory none("", "1", "1.0");
     none.begin_probation("new");
     EXPECT_EQ(none.failed_writes(), 0);
 }
