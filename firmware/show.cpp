@@ -14,6 +14,8 @@ namespace {
 constexpr double kWallGapCells = 1.5;
 /// The fluid's period is smoothed over about this many updates.
 constexpr double kPeriodMemory = 8.0;
+/// More than this between two updates is no period of the fluid: it stood still, for a night or for a shader.
+constexpr double kLongestPeriodS = 1.0;
 /// Steps that an update takes at most.
 constexpr double kMostParts = 4.0;
 /// A hand that moves faster than this was not followed by the device. The gate cuts the force off from 1 m/s on; hands that
@@ -158,8 +160,8 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
                                        .before_m_s = std::exchange(held_velocity_m_s_, velocity_m_s)};
     }
     hand_known_ = held && pose.known;
-    figures_.fluid_period_s +=
-        (interval - figures_.fluid_period_s) / (figures_.steps > 0 ? kPeriodMemory : 1.0);
+    figures_.fluid_period_s += (std::min(interval, kLongestPeriodS) - figures_.fluid_period_s) /
+                               (figures_.steps > 0 ? kPeriodMemory : 1.0);
     last_ = now;
     ++figures_.steps;
     figures_.sub_steps += parts - 1;

@@ -66,6 +66,22 @@ TEST_F(ShowTest, AnswersComeOldestFirstEachForItsOwnPose) {
     EXPECT_EQ(exchange.fluid.newest().computed_for, 14ms);
 }
 
+TEST_F(ShowTest, ANightIsNoPeriodOfTheFluid) {
+    Show show(gpu, scene_with(""), exchange);
+    Instant now = 0ms;
+    const auto update = [&] {
+        hand_at({0.08, 0.08, 0.08}, now);
+        show.update(now += 20ms, kDt, false);
+        show.publish(true);
+    };
+    for (int n = 0; n < 10; ++n) update();
+    now += 10h;
+    update();
+    EXPECT_LT(exchange.fluid.newest().fluid_period.count(), 0.2);
+    for (int n = 0; n < 50; ++n) update();
+    EXPECT_NEAR(exchange.fluid.newest().fluid_period.count(), 0.02, 0.001);
+}
+
 TEST_F(ShowTest, FirstPoseIsAPlaceAndNotAMovement) {
     Show show(gpu, scene_with(""), exchange);
     for (int n = 1; n <= 3; ++n) {  // far from where the scene had put the ball, but at rest
