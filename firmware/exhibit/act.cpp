@@ -102,10 +102,14 @@ CostFigures Act::cost() const {
     return figures;
 }
 
+void Act::watch_hand(Instant now) {
+    const PoseSnapshot& pose = show_.pose();
+    watch_.see(now, pose.known ? std::optional(pose.position_m) : std::nullopt, pose.buttons);
+}
+
 void Act::go_on(Instant now, Seconds interval) {
     const Seconds elsewhere = std::exchange(elsewhere_, Seconds(0.0));
-    const PoseSnapshot pose = show_.pose();
-    watch_.see(now, pose.known ? std::optional(pose.position_m) : std::nullopt, pose.buttons);
+    watch_hand(now);
     if (auto speed_m_s = show_.figures().fluid_speed_m_s; speed_m_s && !moves_by_itself_) {
         for (const gles::BodyState& body : show_.bodies())
             speed_m_s = std::max(*speed_m_s, glm::length(body.velocity_m_s));
@@ -119,7 +123,8 @@ void Act::go_on(Instant now, Seconds interval) {
     rest_ends_ = now + kRestPeriod;
     const QualityControl::Interval since_last{interval, elsewhere, steps_};
     fluid_update(now, std::min(interval, kLongestStep));
-    if (const auto change = quality_.update(now, since_last, pose.buttons)) change_quality(*change, now);
+    if (const auto change = quality_.update(now, since_last, show_.pose().buttons))
+        change_quality(*change, now);
 }
 
 Seconds Act::beside_the_fluid(const std::function<void()>& work) {

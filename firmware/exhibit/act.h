@@ -41,6 +41,8 @@ class Act {
     /// What is due at a time that is `interval` after the last: a step of the fluid, or rest. A change of quality is told
     /// in `news`.
     void go_on(Instant now, Seconds interval);
+    /// In its place while it is closed, so that what moved the handle overnight is nobody's touch in the morning.
+    void watch_hand(Instant now);
     /// Other work of this thread: it is not the fluid's fault when the next step is late for it. Returns what it took.
     Seconds beside_the_fluid(const std::function<void()>& work);
     /// Such work has taken so long.

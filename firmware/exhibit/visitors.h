@@ -28,6 +28,8 @@ class Visitors {
     };
     /// `untouched`: since the handle was touched; it may go back (a new scene knows of no touch yet).
     News see(Instant now, Instant untouched);
+    /// In its place while it is closed: who touches the handle then is no visitor.
+    void closed(Instant now) { last_touch_ = now; }
 
     Presence presence() const { return presence_; }
     /// Until the visitor counts as gone; for the warning on the screen.

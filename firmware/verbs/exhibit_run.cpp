@@ -224,6 +224,7 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
     }
     const bool plays = front_->plays();
     if (plays && is_open_) front_->act().go_on(now, since_last);
+    if (plays && !is_open_) front_->act().watch_hand(now);
     if (plays) front_->act().publish(false);
     draw(now);
     if (plays) front_->act().publish(false);
@@ -318,7 +319,11 @@ void ExhibitRun::heed_hand(Instant now) {
 }
 
 void ExhibitRun::heed_visitors(Instant now) {
-    if (!hand_->has_device() || !front_->plays() || !is_open_) return;
+    if (!hand_->has_device() || !front_->plays()) return;
+    if (!is_open_ && presence_ == Presence::Nobody) {
+        visitors_->closed(now);
+        return;
+    }
     const Visitors::News news = visitors_->see(now, front_->act().watch().untouched());
     presence_ = visitors_->presence();
     if (news.came) {

@@ -37,6 +37,17 @@ TEST_F(VisitorsTest, ADeviceThatComesOrGoesIsNobody) {
     EXPECT_FALSE(look(9s, there_).came);
 }
 
+TEST_F(VisitorsTest, WhoeverTouchesItWhileItIsClosedIsNone) {
+    look(0s, here_);
+    for (Instant t = 1s; t < 10h; t += 60s) {
+        watch_.see(t, t < 5h ? here_ : there_, 0);  // it sank, or was cleaned
+        visitors_.closed(t);
+    }
+    EXPECT_FALSE(look(10h, there_).came);
+    EXPECT_FALSE(look(10h + 1s, there_).gone);
+    EXPECT_TRUE(look(10h + 2s, here_).came);
+}
+
 TEST_F(VisitorsTest, AButtonIsATouch) {
     look(0s, here_);
     EXPECT_TRUE(look(1s, here_, 1).came);
