@@ -169,8 +169,8 @@ void ExhibitRun::open_hand() {
 
 bool ExhibitRun::first_act() {
     const RealClock took;
-    while (!asked_to_stop() && !lost_) {
-        lost_ = front_->poll(clock_.now()) == DisplayState::Lost;
+    while (!asked_to_stop() && !lost_ && !shut_down_) {
+        if (front_->poll(clock_.now()) == DisplayState::Lost) lost_ = true;
         heed_settings();
         const auto news = front_->prepare([this] {
             settings_->heed();
@@ -205,10 +205,11 @@ bool ExhibitRun::prelude(const std::string& what) {
         office_.say_when(Event::FirstPicture,
                          "the first words are on " + front_->graphics().display->describe());
     }
+    heed_panel(now);
     shine(now);
     start_hand();
     hand_->follow();
-    return usable && !asked_to_stop();
+    return usable && !asked_to_stop() && !lost_ && !shut_down_;
 }
 
 // ----------------------------------------------------------------------------------------------------- a turn
@@ -282,7 +283,7 @@ void ExhibitRun::heed_panel(Instant now) {
     if (news.resets > 0) {
         guide_until_.reset();
         hand_->orders().restart();
-        begin_anew("somebody pressed the button");
+        if (front_->plays()) begin_anew("somebody pressed the button");
     }
     if (news.guide) guide_until_ = now + kGuide;
     if (news.trouble != trouble_)
