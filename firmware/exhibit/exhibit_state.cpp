@@ -14,6 +14,10 @@ bool force_is_off(const ExhibitFacts& f) {
 
 }  // namespace
 
+bool is_ready(const FirstPicture& p) {
+    return p.shown || !p.has_screen || !p.open || p.played >= kPictureWait;
+}
+
 ExhibitState exhibit_state(const ExhibitFacts& f) {
     if (!f.first_frame) return ExhibitState::Starting;
     if (f.safe) return ExhibitState::Safe;

@@ -21,6 +21,18 @@ struct ExhibitFacts {
         false;  ///< it runs with other settings than those in its folder: older ones, or the factory's
 };
 
+/// How far the first picture of the show has come.
+struct FirstPicture {
+    bool shown = false;       ///< it is on the screen
+    bool has_screen = false;  ///< there is one to put it on
+    bool open = true;         ///< by the opening hours
+    Instant played{0};        ///< the show has gone on for so long
+};
+/// A screen that takes no picture for so long is somebody else's, or dark: nobody waits for it.
+inline constexpr Instant kPictureWait = std::chrono::seconds(2);
+/// Pure: whether the service is ready: the first picture is seen, or there is nothing to see it on, or none is wanted.
+bool is_ready(const FirstPicture& picture);
+
 /// Pure: the state for status.json, metrics and people far away.
 ExhibitState exhibit_state(const ExhibitFacts& facts);
 /// Pure: the code for the lamps, between news that are shown for a moment.

@@ -237,6 +237,7 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
     heed_settings();
     prepare_next();
     heed_hand(now);
+    get_ready(now);
     shine(now);
     report(now);
     office_.service().long_work_ends(clock_.now());
@@ -245,12 +246,6 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
 void ExhibitRun::draw(Instant now) {
     const bool on_screen = is_open_ && front_->wants_picture();
     const bool asked = screenshot_->wanted(now);
-    if (!first_frame_ && (on_screen || !front_->has_screen())) {
-        first_frame_ = true;
-        office_.service().first_frame(now);
-        office_.say_when(Event::Ready, fmt::format("{} on {}", settings_->scene().title,
-                                                   front_->graphics().display->describe()));
-    }
     if (!asked && (now < frame_due_ || !(on_screen || recording_.on()))) return;
 
     const bool words = !front_->plays() || (guide_until_ && now < *guide_until_);
@@ -271,10 +266,23 @@ void ExhibitRun::draw(Instant now) {
         front_->act().beside_the_fluid(work);
     else
         work();
+    picture_shown_ |= on_screen && !words;
     office_.frame_shown(now);
     const Instant pause = instant(Seconds(clock.now()) * ((1.0 - kRenderShare) / kRenderShare));
     frame_due_ = recording_.on() ? now + std::max(instant(Seconds(1.0 / options_.frames_per_s)), pause)
                                  : clock_.now() + pause;
+}
+
+void ExhibitRun::get_ready(Instant now) {
+    if (first_frame_ || !is_ready({.shown = picture_shown_,
+                                   .has_screen = front_->has_screen(),
+                                   .open = is_open_,
+                                   .played = now - show_began_}))
+        return;
+    first_frame_ = true;
+    office_.service().first_frame(now);
+    office_.say_when(Event::Ready, fmt::format("{} on {}", settings_->scene().title,
+                                               front_->graphics().display->describe()));
 }
 
 void ExhibitRun::heed_panel(Instant now) {

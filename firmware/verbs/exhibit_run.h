@@ -46,6 +46,8 @@ class ExhibitRun {
     // --- a turn
     void turn(Instant now, Seconds since_last);
     void draw(Instant now);
+    /// Tells the service manager, once.
+    void get_ready(Instant now);
     void heed_panel(Instant now);
     void heed_hand(Instant now);
     void heed_visitors(Instant now);
@@ -94,8 +96,9 @@ class ExhibitRun {
 
     bool hand_runs_ = false;
     Instant hand_began_{0}, show_began_{0};
-    bool first_words_ = false, first_frame_ = false;
-    bool lost_ = false;  ///< only a new process can help
+    bool first_words_ = false, picture_shown_ = false;
+    bool first_frame_ = false;  ///< or what stands for it: ready
+    bool lost_ = false;         ///< only a new process can help
     bool shut_down_ = false;
     bool is_open_ = true;
     Presence presence_ = Presence::Nobody;

@@ -28,6 +28,15 @@ TEST(ExhibitState, IsStartingBeforeItsFirstFrameWhateverElseIsSo) {
     EXPECT_EQ(lamp_code(facts), LampCode::Starting);
 }
 
+TEST(ExhibitState, IsReadyWithItsFirstPictureOrWhereNoneIsWanted) {
+    using namespace std::chrono_literals;
+    EXPECT_FALSE(is_ready({.has_screen = true, .played = 1s}));
+    EXPECT_TRUE(is_ready({.shown = true, .has_screen = true}));
+    EXPECT_TRUE(is_ready({.has_screen = false})) << "there may never be one";
+    EXPECT_TRUE(is_ready({.has_screen = true, .open = false})) << "switched on at night";
+    EXPECT_TRUE(is_ready({.has_screen = true, .played = 2s})) << "another program has the screen";
+}
+
 TEST(ExhibitState, ClosedIsNoFailure) {
     ExhibitFacts facts = kWell;
     facts.open = false;
