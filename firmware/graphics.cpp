@@ -57,14 +57,22 @@ std::unique_ptr<Graphics> open_display(DisplayChoice choice, const ScreenConfig&
                                        const std::filesystem::path& state_dir) {
     if (choice == DisplayChoice::Headless) return open_headless();
     if (choice == DisplayChoice::Kms) return open_screen(config, state_dir);
+    bool lacks_card = false;
     try {
         return open_screen(config, state_dir);
     } catch (const kms::KmsError& e) {
         fmt::print(stderr, "no screen is used ({}); going on without\n", e.what());
+        lacks_card = !card_has_come();
     } catch (const gles::GlError& e) {
         fmt::print(stderr, "the screen cannot be drawn on ({}); going on without\n", e.what());
     }
-    return open_headless();
+    std::unique_ptr<Graphics> graphics = open_headless();
+    graphics->lacks_card = lacks_card;
+    return graphics;
+}
+
+bool card_has_come() {
+    return kms::has_card(*kms::make_machine());
 }
 
 std::unique_ptr<Graphics> open_again(std::unique_ptr<Graphics> lost, Seconds patience) {
@@ -76,8 +84,11 @@ std::unique_ptr<Graphics> open_again(std::unique_ptr<Graphics> lost, Seconds pat
         clock.sleep_until(clock.now() + 10ms);
     }
     std::unique_ptr<Display> display = std::move(lost->display);
+    const bool lacks_card = lost->lacks_card;
     lost.reset();
-    return std::make_unique<Graphics>(std::move(display));
+    auto graphics = std::make_unique<Graphics>(std::move(display));
+    graphics->lacks_card = lacks_card;
+    return graphics;
 }
 
 }  // namespace eddy

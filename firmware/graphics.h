@@ -23,6 +23,7 @@ struct Graphics {
     std::unique_ptr<Display> display;
     gles::Context context;
     gles::Gpu gpu;
+    bool lacks_card = false;  ///< a screen was wished for, and there was no card that could drive one
 };
 
 /// Graphics without a screen: on the GPU if there is one that can be opened, else in software, which it says on
@@ -37,6 +38,9 @@ std::unique_ptr<Graphics> open_screen(const ScreenConfig& config, const std::fil
 /// not the screen. Throws as the two above.
 std::unique_ptr<Graphics> open_display(DisplayChoice choice, const ScreenConfig& config,
                                        const std::filesystem::path& state_dir);
+
+/// Whether a card that could drive a screen has come up since: only a new process can use it, for what GL has drawn lies elsewhere.
+bool card_has_come();
 
 /// After a reset of the GPU: a new context on the same display, as soon as the driver has got over it. All that was made with the
 /// old one must be gone. Throws gles::GlError if that takes longer than `patience`, or does not work.

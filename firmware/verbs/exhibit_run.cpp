@@ -28,6 +28,8 @@ constexpr Seconds kSlowWarmUp{2.0};  // worth a line
 constexpr double kRenderShare = 0.4;
 constexpr Instant kBlink = 2s;
 constexpr Instant kGuide = 60s;
+/// Between two looks whether there is a graphics card by now.
+constexpr Instant kCardEvery = 5s;
 /// Turns while nothing is shown.
 constexpr Instant kClosedTurn = 50ms;
 /// In the run folder: the button was held while the machine started.
@@ -223,6 +225,7 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
         lost_ = true;
         return;
     }
+    heed_cards(now);
     const bool plays = front_->plays();
     if (plays && is_open_) front_->act().go_on(now, since_last);
     if (plays && !is_open_) front_->act().watch_hand(now);
@@ -241,6 +244,15 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
     shine(now);
     report(now);
     office_.service().long_work_ends(clock_.now());
+}
+
+/// Where somebody starts the program again.
+void ExhibitRun::heed_cards(Instant now) {
+    if (!front_->graphics().lacks_card || !office_.has_manager() || now < card_due_) return;
+    card_due_ = now + kCardEvery;
+    if (!card_has_come()) return;
+    office_.say(Event::ScreenFound, "a graphics card has come up: the program starts again, with its screen");
+    lost_ = true;
 }
 
 void ExhibitRun::draw(Instant now) {
@@ -436,9 +448,15 @@ ExhibitFacts ExhibitRun::facts() const {
         .device = loop.device,
         .force = loop.reason,
         .presence = presence_,
-        .has_screen = settings_->exhibit().display != DisplayChoice::Kms || front_->has_screen(),
+        .has_screen = front_->has_screen() || !wants_screen(),
         .button_stuck = button_stuck_ || !trouble_.empty() || hanging_ == Part::Gpio,
         .fell_back = settings_->report().source == ConfigSource::LastGood || settings_->report().stands_in};
+}
+
+/// A service has its screen to itself; elsewhere `auto` finds none where there is a desktop.
+bool ExhibitRun::wants_screen() const {
+    const DisplayChoice display = settings_->exhibit().display;
+    return display == DisplayChoice::Kms || (display == DisplayChoice::Auto && office_.has_manager());
 }
 
 void ExhibitRun::blink(LampCode code) {

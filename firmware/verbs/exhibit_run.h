@@ -48,6 +48,7 @@ class ExhibitRun {
     void draw(Instant now);
     /// Tells the service manager, once.
     void get_ready(Instant now);
+    void heed_cards(Instant now);
     void heed_panel(Instant now);
     void heed_hand(Instant now);
     void heed_visitors(Instant now);
@@ -71,6 +72,7 @@ class ExhibitRun {
     bool done() const;
     Instant period() const;
     ExhibitFacts facts() const;
+    bool wants_screen() const;
     Office::View view() const;
 
     RunOptions options_;
@@ -106,7 +108,7 @@ class ExhibitRun {
     bool button_stuck_ = false;
     std::optional<Instant> guide_until_, blink_until_;
     LampCode blink_ = LampCode::Accepted;
-    Instant frame_due_{0}, look_due_{0};
+    Instant frame_due_{0}, look_due_{0}, card_due_{0};
     std::uint64_t beats_ = 0;
     std::optional<Part> hanging_;  ///< and the log says so
 };

@@ -27,6 +27,16 @@ std::string reason(int error) {
 
 }  // namespace
 
+bool has_card(Machine& machine) {
+    for (const std::string& path : machine.cards()) {
+        const Machine::Opened opened = machine.open(path);
+        if (!opened.card) continue;
+        opened.card->enable_atomic();  // plugs show what it needs only after this
+        if (!look_for_monitors(*opened.card, false).empty()) return true;
+    }
+    return false;
+}
+
 // ---------------------------------------------------------------------------------------------- start-up
 
 KmsDisplay::KmsDisplay(std::unique_ptr<Machine> machine, Wish wish)

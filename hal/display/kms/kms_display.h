@@ -21,6 +21,9 @@ struct KmsError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Whether the machine has a card that KmsDisplay could open: drivers may bring one up well after the program does.
+bool has_card(Machine& machine);
+
 /// The whole screen, straight from the kernel: no compositor, no cursor, no console. Opened once, it copes by itself with
 /// monitors that come and go, cards that refuse, flips that never come, and programs that take the screen; poll() says how it is.
 class KmsDisplay final : public Display {

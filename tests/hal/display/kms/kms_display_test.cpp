@@ -164,6 +164,17 @@ TEST_F(KmsDisplayTest, ACardWithoutPlugsIsNoneAtAll) {
     EXPECT_EQ(state, DisplayState::Showing);
 }
 
+TEST_F(KmsDisplayTest, ACardThatComesUpLateIsNoticed) {
+    card().plugs.clear();
+    machine.add_card().open_error = EACCES;  // as long as udev has not got round to it
+    EXPECT_FALSE(has_card(*machine.machine()));
+    card(1).open_error = 0;
+    EXPECT_TRUE(has_card(*machine.machine()));
+    EXPECT_EQ(card(1).master, -1) << "a look takes nothing";
+    card(1).plugs[0].connection = Connection::Disconnected;
+    EXPECT_TRUE(has_card(*machine.machine())) << "a screen may come later still";
+}
+
 TEST_F(KmsDisplayTest, AScreenThatMovesToAnotherCardNeedsANewProcess) {
     machine.add_card().plugs[0].connection = Connection::Disconnected;
     open();
