@@ -26,10 +26,11 @@ std::vector<StartLedger::Start> StartLedger::read() {
         std::istringstream words(line);
         Start start;
         std::string end, more;
-        if (words >> start.at_s >> start.boot >> end && !(words >> more) && (end == "well" || end == "-")) {
-            start.well = end == "well";
-            starts.push_back(start);
-        }
+        if (!(words >> start.at_s >> start.boot >> end) || words >> more) continue;
+        const auto known = std::find(std::begin(kEnds), std::end(kEnds), end);
+        if (known == std::end(kEnds)) continue;
+        start.end = static_cast<End>(known - std::begin(kEnds));
+        starts.push_back(start);
     }
     return starts;
 }
@@ -37,14 +38,14 @@ std::vector<StartLedger::Start> StartLedger::read() {
 bool StartLedger::write() {
     std::string text;
     for (const Start& start : starts_)
-        text += fmt::format("{} {} {}\n", start.at_s, start.boot, start.well ? "well" : "-");
+        text += fmt::format("{} {} {}\n", start.at_s, start.boot, kEnds[static_cast<std::size_t>(start.end)]);
     return file_.try_write(text);
 }
 
 bool StartLedger::gave_up(const std::string& boot, std::int64_t& at_s) const {
     std::vector<std::int64_t> failures;
     for (const Start& start : starts_)
-        if (start.boot == boot && !start.well) failures.push_back(start.at_s);
+        if (start.boot == boot && start.end == End::None) failures.push_back(start.at_s);
     if (failures.size() < kBurst) return false;
     at_s = failures.back();
     return at_s - failures[failures.size() - kBurst] <= kBurst_s;
@@ -67,23 +68,31 @@ StartLedger::Verdict StartLedger::begin(std::int64_t now_s, const std::string& b
     if (!starts_.empty()) {
         const Start& last = starts_.back();
         power_lost = power_lost && last.boot != this_boot;
-        verdict.before = last.well ? EndBefore::Well : power_lost ? EndBefore::PowerLost : EndBefore::Failed;
+        verdict.before = last.end != End::None ? EndBefore::Well
+                         : power_lost          ? EndBefore::PowerLost
+                                               : EndBefore::Failed;
     }
     std::error_code error;
     verdict.asked_for = std::filesystem::exists(marker_, error);
     verdict.safe = verdict.asked_for || verdict.restarts >= kMostRestarts;
-    if (verdict.safe && !starts_.empty() && starts_.back().boot == this_boot)
-        verdict.wait_s = std::clamp<std::int64_t>(starts_.back().at_s + kSafeStep_s - now_s, 0, kSafeStep_s);
-    starts_.push_back({now_s + verdict.wait_s, this_boot, false});
+    if (!starts_.empty() && starts_.back().boot == this_boot) {
+        const auto lately = std::count_if(starts_.begin(), starts_.end(), [&](const Start& start) {
+            return start.boot == this_boot && now_s - start.at_s <= kBurst_s;
+        });
+        const bool again = starts_.back().end == End::Again && lately > 1;
+        const std::int64_t step_s = verdict.safe ? kSafeStep_s : again ? kAgainStep_s : 0;
+        verdict.wait_s = std::clamp<std::int64_t>(starts_.back().at_s + step_s - now_s, 0, step_s);
+    }
+    starts_.push_back({now_s + verdict.wait_s, this_boot, End::None});
     if (starts_.size() > kMostStarts)
         starts_.erase(starts_.begin(), starts_.end() - static_cast<std::ptrdiff_t>(kMostStarts));
     verdict.written = write();
     return verdict;
 }
 
-void StartLedger::end_well() {
+void StartLedger::end(End end) {
     if (starts_.empty()) return;
-    starts_.back().well = true;
+    starts_.back().end = end;
     write();
 }
 

@@ -537,7 +537,7 @@ int ExhibitRun::finish() {
     if (hand_) hand_->end();  // with zero force, before anything else is said
     if (hand_) hand_->follow([this](std::span<const TickRecord> ticks) { recording_.add(ticks); });
     if (settings_) settings_->stopped();
-    if (ledger_ && !lost_) ledger_->end_well();
+    if (ledger_) lost_ ? ledger_->end_for_restart() : ledger_->end_well();
     const Instant now = clock_.now();
     progress_.finish();
     recording_.finish();

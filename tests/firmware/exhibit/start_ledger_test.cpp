@@ -66,6 +66,27 @@ TEST_F(StartLedgerTest, PowerCutsAndOrdinaryCrashesDoNotLeadToSafeMode) {
     for (int i = 0; i < 20; ++i) EXPECT_FALSE(start(kNoon + 3000 + 100 * i, "same").safe) << i;
 }
 
+TEST_F(StartLedgerTest, WhoeverAsksForANewProcessHasNotFailedAndIsNotStartedTooOften) {
+    std::vector<std::int64_t> starts;
+    std::int64_t now = kNoon;
+    for (int i = 0; i < 30; ++i) {
+        StartLedger ledger(folder_.path());
+        const StartLedger::Verdict verdict = ledger.begin(now, "a");
+        ASSERT_FALSE(verdict.safe) << i;
+        EXPECT_NE(verdict.before, EndBefore::Failed) << i;
+        if (i < 2) {
+            EXPECT_EQ(verdict.wait_s, 0) << "at once, as a rule";
+        }
+        starts.push_back(now);
+        now += verdict.wait_s + 1;
+        ledger.end_for_restart();
+    }
+    for (std::size_t i = StartLedger::kBurst; i < starts.size(); ++i)
+        EXPECT_GT(starts[i] - starts[i - StartLedger::kBurst], StartLedger::kBurst_s) << i;
+    for (const char* boot : {"b", "c", "d"})
+        EXPECT_FALSE(start(now += 60, boot).safe) << "nor has the machine";
+}
+
 TEST_F(StartLedgerTest, AnHourLaterAllIsAsUsual) {
     for (const char* boot : {"a", "b", "c"}) give_up(kNoon, boot);
     EXPECT_TRUE(start(kNoon + StartLedger::kHour_s - 60, "d").safe);
