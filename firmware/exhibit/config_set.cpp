@@ -41,7 +41,8 @@ LoadedScene read_the_scene(const ConfigSet& set, const std::string& name,
 }
 
 void check_presets(ConfigSet& set, const std::string& name, const SceneOrders& orders) {
-    for (const SolverPreset preset : set.exhibit.exhibit.presets) {
+    const bool ordered = !orders.presets.empty();
+    for (const SolverPreset preset : ordered ? orders.presets : set.exhibit.exhibit.presets) {
         std::vector<std::string> with = orders.set;
         with.push_back(fmt::format("solver.preset=\"{}\"", to_word(preset)));
         try {
@@ -49,7 +50,7 @@ void check_presets(ConfigSet& set, const std::string& name, const SceneOrders& o
         } catch (const ConfigError& error) {
             for (const Diagnostic& d : error.diagnostics())
                 set.diagnostics.push_back(diagnose(
-                    place_of(set.exhibit.origins, "presets"), "presets",
+                    ordered ? Place{"--presets", 0, 0} : place_of(set.exhibit.origins, "presets"), "presets",
                     fmt::format("{} cannot do the scene: {}: {}", to_word(preset), d.key, d.message)));
         }
     }

@@ -11,6 +11,7 @@ namespace eddy {
 struct SceneOrders {
     std::string scene{};  ///< empty: the exhibit's
     std::vector<std::string> set{};
+    std::vector<SolverPreset> presets{};  ///< empty: the exhibit's
 };
 
 /// The files that a configuration is made of, as they were read.

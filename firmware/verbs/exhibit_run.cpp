@@ -137,7 +137,7 @@ void ExhibitRun::open() {
                       ConfigIntake::Setup{.folder = options_.config,
                                           .state_dir = state_dir_,
                                           .run_dir = options_.run_dir,
-                                          .orders = {options_.scene, options_.set},
+                                          .orders = {options_.scene, options_.set, options_.presets},
                                           .factory_only = verdict_.safe || factory},
                       office_, clock_);
     const Exhibit& exhibit = settings_->exhibit();

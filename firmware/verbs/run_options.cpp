@@ -69,12 +69,6 @@ void require_possible(const RunOptions& options, const Exhibit& exhibit, const S
         throw InputError(
             fmt::format("--preset-s {}: there are no presets that could change; name them with --presets",
                         *options.preset_s));
-    // Each preset must be able to do what the scene asks for.
-    for (const SolverPreset preset : exhibit.presets) {
-        std::vector<std::string> set = options.set;
-        set.push_back(fmt::format("solver.preset=\"{}\"", to_word(preset)));
-        load_scene(exhibit.scene, set);
-    }
     BodySchedule{scene};  // reads the paths
 }
 

@@ -31,6 +31,11 @@ int run_stepped(const RunOptions& options) {
     const Exhibit exhibit = with_options(load_exhibit(options.config).exhibit, options);
     const Scene scene = load_scene(exhibit.scene, options.set).scene;
     require_possible(options, exhibit, scene);
+    for (const SolverPreset preset : exhibit.presets) {  // each must be able to do what the scene asks for
+        std::vector<std::string> set = options.set;
+        set.push_back(fmt::format("solver.preset=\"{}\"", to_word(preset)));
+        load_scene(exhibit.scene, set);
+    }
     RunDevice device = make_device(options, exhibit);
     prepare_folders(options);
     if (!options.record.empty()) prepare_folder("--record", options.record);

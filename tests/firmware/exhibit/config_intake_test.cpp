@@ -193,6 +193,17 @@ TEST_F(Exhibits, RefusePresetsThatTheSceneCannotDo) {
     EXPECT_EQ(answer()["errors"][0]["file"], scratch_ / "eddy/exhibit.toml");
 }
 
+TEST_F(Exhibits, RefuseASceneThatThePresetsOfTheCommandLineCannotDo) {
+    orders_.presets = {SolverPreset::Fast, SolverPreset::Yang2009};
+    write("exhibit.toml", "# ours\n");
+    EXPECT_EQ(start().source, ConfigSource::New);
+    write("scene.toml", std::string(kScene) + "[temperature]\n");
+    write("exhibit.toml", "scene = \"scene.toml\"\n");
+    EXPECT_FALSE(take());
+    ASSERT_FALSE(answer()["errors"].empty());
+    EXPECT_EQ(answer()["errors"][0]["file"], "--presets");
+}
+
 TEST_F(Exhibits, TellWhichKeysWaitForARestartAndDoNotApplyThem) {
     write("exhibit.toml", "max_force_n = 3\n");
     start();
