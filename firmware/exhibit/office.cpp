@@ -94,6 +94,7 @@ void Office::frame_shown(Instant now) {
 bool Office::report(Instant now, const View& view, bool finally) {
     if (now < report_due_ && !finally) return false;
     report_due_ = now + kReportEvery;
+    temperature_c_ = temperature_c();
     journal_.go_on(now);
     if (usage_) {
         if (view.hand.report().reason == GateReason::Open)
@@ -131,7 +132,7 @@ VitalSigns Office::vital_signs(const View& view) const {
     signs.config_taken_at_s = view.settings_taken_at_s;
     signs.config_hash = view.settings.running_hash;
     signs.gpu_resets = view.front.gpu_resets();
-    signs.temperature_c = temperature_c();
+    signs.temperature_c = temperature_c_;
     return signs;
 }
 

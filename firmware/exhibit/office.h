@@ -77,7 +77,8 @@ class Office {
     std::optional<UsageBook> usage_;
     FrameTimes frame_times_;
     Instant report_due_{0}, last_frame_{0};
-    std::uint64_t gpu_resets_ = 0;              ///< as told last
+    std::optional<double> temperature_c_;  ///< as of the last report: the guide page is drawn far more often
+    std::uint64_t gpu_resets_ = 0;         ///< as told last
     HapticState device_ = HapticState::Absent;  ///< likewise
     GateReason force_ = GateReason::Disabled;   ///< so far
 };
