@@ -32,7 +32,7 @@ constexpr Instant kGuide = 60s;
 constexpr Instant kCardEvery = 5s;
 /// Turns while nothing is shown.
 constexpr Instant kClosedTurn = 50ms;
-/// In the run folder: the button was held while the machine started.
+// Words for the next start and for systemd (eddy-poweroff.path), which read no settings: in the run folder as it is without them.
 constexpr const char* kFactoryMarker = "factory.request";
 constexpr const char* kPowerOff = "poweroff.request";
 // What the screen says while there is nothing to play.
@@ -314,7 +314,7 @@ void ExhibitRun::heed_panel(Instant now) {
     button_stuck_ = news.button_stuck;
     const auto leave_word = [&](const char* name) {
         try {
-            replace_text_file(settings_->exhibit().run_dir / name, "");
+            replace_text_file(run_folder(options_) / name, "");
         } catch (const std::runtime_error& e) {
             office_.say(Event::DiskTrouble, e.what());
         }
