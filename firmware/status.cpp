@@ -52,6 +52,7 @@ nlohmann::ordered_json to_json(const VitalSigns& v) {
                              {"config_taken_at_s", v.config_taken_at_s},
                              {"config_hash", v.config_hash},
                              {"gpu_resets", v.gpu_resets},
+                             {"disk_errors", v.disk_errors},
                              {"temperature_c", nullptr},
                              {"today", to_json(v.today)},
                              {"total", to_json(v.total)}};

@@ -97,6 +97,8 @@ std::string metrics_text(const Status& s) {
     out.counter("exhibit_usb_error_total", "Errors of the bus.", number(s.loop.device_counters.usb_errors));
     out.counter("exhibit_gpu_reset_total", "Times the driver lost the picture's context.",
                 number(v.gpu_resets));
+    out.counter("exhibit_disk_error_total", "Times that something could not be written.",
+                number(v.disk_errors));
 
     out.head("exhibit_guard_total", "What the guards of the fluid did (docs/guards.md).", "counter");
     for (const GuardFigure& guard : guard_figures(s))

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "firmware/exhibit/metrics.h"
 #include "firmware/exhibit/process_age.h"
@@ -46,8 +47,16 @@ void Office::say_when(Event event, const std::string& message) {
     say(event, fmt::format("{}, {} s after the start", message, after), {{"EDDY_AFTER_S", after}});
 }
 
+void Office::disk_trouble(const std::string& what) {
+    ++disk_errors_;
+    say(Event::DiskTrouble, what);
+}
+
 void Office::count_in(const std::filesystem::path& state_dir) {
-    if (!usage_) usage_.emplace(state_dir);
+    if (usage_) return;
+    usage_.emplace(state_dir);
+    if (usage_->damaged())
+        disk_trouble("the usage counts were damaged: they are put aside, and counting begins anew");
 }
 
 void Office::count(double Usage::*what, double much) {
@@ -99,8 +108,11 @@ bool Office::report(Instant now, const View& view, bool finally) {
     if (usage_) {
         if (view.hand.report().reason == GateReason::Open)
             count(&Usage::force_s, Seconds(kReportEvery).count());
-        if (!usage_->go_on(now)) say(Event::DiskTrouble, "the usage counts could not be written");
+        if (!usage_->go_on(now)) disk_trouble("the usage counts could not be written");
     }
+    if (const int unwritten = view.settings.failed_writes;
+        unwritten > std::exchange(settings_unwritten_, unwritten))
+        disk_trouble("what is remembered of the settings could not be written: " + view.settings.trouble);
     if (view.front.plays()) write_figures(now, view);
     return true;
 }
@@ -113,9 +125,11 @@ void Office::write_figures(Instant now, const View& view) {
                                   status.cost.steps_per_s, to_word(view.hand.report().reason)));
     const std::filesystem::path& run_dir = view.exhibit.run_dir;
     if (!is_folder(run_dir)) return;
-    write_status(run_dir / "status.json", status);
     const std::string& metrics = view.exhibit.unattended.metrics_file;
-    write_metrics(metrics.empty() ? run_dir / "eddy.prom" : std::filesystem::path(metrics), status);
+    const std::filesystem::path prom =
+        metrics.empty() ? run_dir / "eddy.prom" : std::filesystem::path(metrics);
+    if (!write_status(run_dir / "status.json", status)) disk_trouble("status.json could not be written");
+    if (!write_metrics(prom, status)) disk_trouble(prom.string() + " could not be written");
 }
 
 VitalSigns Office::vital_signs(const View& view) const {
@@ -131,6 +145,7 @@ VitalSigns Office::vital_signs(const View& view) const {
     signs.config_good = view.settings_good;
     signs.config_taken_at_s = view.settings_taken_at_s;
     signs.config_hash = view.settings.running_hash;
+    signs.disk_errors = disk_errors_;
     signs.gpu_resets = view.front.gpu_resets();
     signs.temperature_c = temperature_c_;
     return signs;
@@ -151,7 +166,7 @@ std::vector<std::string> Office::guide_page(const View& view) const {
 }
 
 void Office::close() {
-    if (usage_) usage_->write();
+    if (usage_ && !usage_->write()) disk_trouble("the usage counts could not be written");
     journal_.flush();
 }
 

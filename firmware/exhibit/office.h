@@ -40,6 +40,8 @@ class Office {
 
     // --- the log
     void say(Event event, const std::string& message, const LogSink::Fields& fields = {});
+    /// Something could not be written: says it, and counts it.
+    void disk_trouble(const std::string& what);
     /// With the seconds since the program's start.
     void say_when(Event event, const std::string& message);
     Journal& journal() { return journal_; }
@@ -78,7 +80,9 @@ class Office {
     FrameTimes frame_times_;
     Instant report_due_{0}, last_frame_{0};
     std::optional<double> temperature_c_;  ///< as of the last report: the guide page is drawn far more often
-    std::uint64_t gpu_resets_ = 0;         ///< as told last
+    std::uint64_t disk_errors_ = 0;
+    int settings_unwritten_ = 0;                ///< as told last
+    std::uint64_t gpu_resets_ = 0;              ///< as told last
     HapticState device_ = HapticState::Absent;  ///< likewise
     GateReason force_ = GateReason::Disabled;   ///< so far
 };

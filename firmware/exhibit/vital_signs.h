@@ -37,6 +37,7 @@ struct VitalSigns {
     double config_taken_at_s = 0;  ///< when one was last taken, UTC since 1970; 0: never
     std::string config_hash{};
     std::uint64_t gpu_resets = 0;
+    std::uint64_t disk_errors = 0;  ///< times that something could not be written
     std::optional<double> temperature_c{};
 };
 

@@ -107,6 +107,7 @@ void ExhibitRun::look_back() {
     office_.count(&Usage::starts);
     ledger_.emplace(state_dir_);
     verdict_ = ledger_->begin(std::time(nullptr), boot_id());
+    if (!verdict_.written) office_.disk_trouble("that the program has started could not be written down");
     if (verdict_.before == EndBefore::Failed)
         office_.say(Event::EndedBadly, "the run before this one ended by itself");
     if (verdict_.before == EndBefore::PowerLost) {
@@ -316,7 +317,7 @@ void ExhibitRun::heed_panel(Instant now) {
         try {
             replace_text_file(run_folder(options_) / name, "");
         } catch (const std::runtime_error& e) {
-            office_.say(Event::DiskTrouble, e.what());
+            office_.disk_trouble(e.what());
         }
     };
     if (news.shutdown) {

@@ -226,6 +226,17 @@ TEST_F(ExhibitEndToEnd, GivesAPictureToWhoAsksForOne) {
     EXPECT_EQ(exhibit.wait().status, 0);
 }
 
+TEST_F(ExhibitEndToEnd, SaysAndCountsWhatItCannotWrite) {
+    std::filesystem::create_directory(folder / "run/eddy.prom.new");
+    Program exhibit(command());
+    ASSERT_TRUE(plays());
+    EXPECT_TRUE(in_time([&] { return read("status.json").at("exhibit").at("disk_errors") > 0; }));
+    exhibit.send(SIGTERM);
+    const Ended ended = exhibit.wait();
+    EXPECT_EQ(ended.status, 0) << "the show goes on";
+    EXPECT_THAT(ended.err, HasSubstr("eddy.prom could not be written"));
+}
+
 TEST_F(ExhibitEndToEnd, EndsWellWithTheTerminalItWasStartedFrom) {
     Program exhibit(command());
     ASSERT_TRUE(plays());
