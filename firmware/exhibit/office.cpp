@@ -95,11 +95,6 @@ void Office::tell_of_hand(const HandSide& hand) {
     }
 }
 
-void Office::frame_shown(Instant now) {
-    if (last_frame_ > Instant(0)) frame_times_.add(now - last_frame_);
-    last_frame_ = now;
-}
-
 bool Office::report(Instant now, const View& view, bool finally) {
     if (now < report_due_ && !finally) return false;
     report_due_ = now + kReportEvery;

@@ -58,7 +58,7 @@ class Office {
     // --- each turn
     /// What is new on both sides, for the log.
     void tell_news(Front& front, HandSide& hand);
-    void frame_shown(Instant now);
+    FrameTimes& frame_times() { return frame_times_; }
     /// Once a second by itself; `finally`: in any case. True: it was written.
     bool report(Instant now, const View& view, bool finally = false);
     /// Lines for the screen.
@@ -78,7 +78,7 @@ class Office {
     Service service_;
     std::optional<UsageBook> usage_;
     FrameTimes frame_times_;
-    Instant report_due_{0}, last_frame_{0};
+    Instant report_due_{0};
     std::optional<double> temperature_c_;  ///< as of the last report: the guide page is drawn far more often
     std::uint64_t disk_errors_ = 0;
     int settings_unwritten_ = 0;                ///< as told last

@@ -259,6 +259,7 @@ void ExhibitRun::heed_cards(Instant now) {
 void ExhibitRun::draw(Instant now) {
     const bool on_screen = is_open_ && front_->wants_picture();
     const bool asked = screenshot_->wanted(now);
+    if (!is_open_ || !(front_->has_screen() || recording_.on())) office_.frame_times().interrupted();
     if (!asked && (now < frame_due_ || !(on_screen || recording_.on()))) return;
 
     const bool words = !front_->plays() || (guide_until_ && now < *guide_until_);
@@ -280,7 +281,7 @@ void ExhibitRun::draw(Instant now) {
     else
         work();
     picture_shown_ |= on_screen && !words;
-    office_.frame_shown(now);
+    if (on_screen || recording_.on()) office_.frame_times().shown(now);
     const Instant pause = instant(Seconds(clock.now()) * ((1.0 - kRenderShare) / kRenderShare));
     frame_due_ = recording_.on() ? now + std::max(instant(Seconds(1.0 / options_.frames_per_s)), pause)
                                  : clock_.now() + pause;

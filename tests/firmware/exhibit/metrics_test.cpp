@@ -109,6 +109,7 @@ Status busy() {
     s.vital_signs.config_good = false;
     s.vital_signs.config_taken_at_s = 1795517000;
     s.vital_signs.gpu_resets = 1;
+    s.vital_signs.disk_errors = 2;
     for (const double frame_s : {0.001, 0.02, 0.02, 5.0}) s.vital_signs.frames.add(Seconds(frame_s));
     return s;
 }
@@ -120,6 +121,7 @@ TEST(Metrics, CanBeReadByPrometheus) {
     EXPECT_EQ(metrics.value("exhibit_force_clamp_total"), 3.0);
     EXPECT_EQ(metrics.value("exhibit_usb_reconnect_total"), 2.0);
     EXPECT_EQ(metrics.value("exhibit_gpu_reset_total"), 1.0);
+    EXPECT_EQ(metrics.value("exhibit_disk_error_total"), 2.0);
     EXPECT_EQ(metrics.value("exhibit_guard_total", {{"guard", "step_refused"}}), 5.0);
     EXPECT_EQ(metrics.value("exhibit_guard_total", {{"guard", "hand_placed"}}), 11.0);
     EXPECT_EQ(metrics.value("exhibit_config_last_reload_successful"), 0.0);
@@ -205,6 +207,16 @@ TEST(Temperature, IsTheHottestThermometers) {
     std::filesystem::create_directory(folder / "thermal_zone2");  // does not answer
     EXPECT_EQ(temperature_c(folder.path()), 61.5);
     EXPECT_EQ(temperature_c("/nonexistent"), std::nullopt);
+}
+
+TEST(FrameTimes, ANightIsNoFrame) {
+    using namespace std::chrono_literals;
+    FrameTimes frames;
+    for (int n = 0; n <= 10; ++n) frames.shown(n * 20ms);
+    frames.interrupted();
+    for (int n = 0; n <= 10; ++n) frames.shown(10h + n * 20ms);
+    EXPECT_EQ(frames.up_to(FrameTimes::kBounds_s.size()), 20U);
+    EXPECT_NEAR(frames.sum_s(), 0.4, 1e-9);
 }
 
 }  // namespace
