@@ -8,7 +8,6 @@ void HandOrders::give(const HapticOrders& orders) {
     const HapticOrders kept = orders_;
     orders_ = orders;
     orders_.resets = kept.resets;
-    orders_.stop = kept.stop;
     orders_.restarts = kept.restarts;
     publish();
 }
@@ -45,11 +44,6 @@ void HandOrders::set_ceiling(double most_n) {
 
 void HandOrders::release_latch() {
     ++orders_.resets;
-    publish();
-}
-
-void HandOrders::stop(bool pressed) {
-    orders_.stop = pressed;
     publish();
 }
 

@@ -14,7 +14,7 @@ class HandOrders {
 
     explicit HandOrders(HapticExchange& exchange) : exchange_(exchange) {}
 
-    /// From now on; but for the stop input and the counts of resets and restarts, which are kept here.
+    /// From now on; but for the counts of resets and restarts, which are kept here.
     void give(const HapticOrders& orders);
     /// The exhibit's own word, over whatever a scene orders: whether there may be a force at all, and the most of it.
     void allow(bool force);
@@ -22,8 +22,7 @@ class HandOrders {
     /// With each report: the cause of a latch, if it has been gone for so long that the latch may be released.
     std::optional<GateReason> cause_gone(Instant now, const LoopReport& report);
     void release_latch();
-    /// Whether the stop input is pressed. Once it was, there is no force until it is not and somebody says restart().
-    void stop(bool pressed);
+    /// After a stop: there is a force again, if the stop input is not pressed.
     void restart();
 
   private:

@@ -77,7 +77,6 @@ class ConfigIntake {
     /// Something is being read or kept.
     bool busy() const { return reading_.valid() || keeping_.valid(); }
     const ConfigReport& report() const { return report_; }
-    const FolderWatch::Counters& watch_counters() const { return watch_.counters(); }
 
   private:
     struct Objection {

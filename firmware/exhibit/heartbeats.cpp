@@ -6,10 +6,6 @@ void Heartbeats::expect(Part part, Instant now) {
     beats_[static_cast<std::size_t>(part)] = Beat{.count = 0, .at = now};
 }
 
-void Heartbeats::forget(Part part) {
-    beats_[static_cast<std::size_t>(part)].reset();
-}
-
 void Heartbeats::see(Part part, std::uint64_t count, Instant now) {
     std::optional<Beat>& beat = beats_[static_cast<std::size_t>(part)];
     if (beat && beat->count != count) *beat = Beat{.count = count, .at = now};

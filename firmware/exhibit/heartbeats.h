@@ -31,8 +31,6 @@ class Heartbeats {
 
     /// A part that has to get on; from now on it has this long to begin.
     void expect(Part part, Instant now);
-    /// One that has ended, or is not there: nobody waits for it.
-    void forget(Part part);
     /// Its count as it is now. That of a part that is not expected means nothing.
     void see(Part part, std::uint64_t count, Instant now);
     /// After work of this thread that had to take long (a scene that is made): nobody else had a chance to be seen.

@@ -18,11 +18,9 @@ struct PanelNews {
     bool factory = false;      ///< held since the start: start with the factory's configuration
 
     // Now:
-    bool stop_pressed = false;  ///< or its line is away
     bool button_stuck = false;  ///< for more than a minute; it is ignored
     std::string
         trouble{};  ///< of lines that are away, a sentence each, with line ends between; empty: all is well
-    std::uint64_t lost = 0;  ///< times that a line went away, since the start
 };
 
 /// Button, stop input and lamps of the exhibit, on a thread of their own. What of them is not wired (an empty address in the

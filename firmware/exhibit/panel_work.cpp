@@ -90,12 +90,9 @@ void PanelWork::darken(Instant now) {
 void PanelWork::tell() {
     const std::lock_guard lock(mutex_);
     ring_ = ring(player_.code(), player_.shown());
-    news_.stop_pressed = stopped_;
     news_.button_stuck = button_.phase() == Button::Phase::Stuck;
-    news_.lost = 0;
     news_.trouble.clear();
     for (const KeptLine* line : {&stop_, &button_line_, &green_, &amber_, &red_}) {
-        news_.lost += line->lost();
         if (line->trouble().empty()) continue;
         if (!news_.trouble.empty()) news_.trouble += '\n';
         news_.trouble += line->trouble();

@@ -57,7 +57,6 @@ class UsageBook {
     const Usage& total() const { return total_; }
     /// Of the day, by the clock on the wall.
     Usage on(std::time_t day) const;
-    const std::map<std::string, Usage>& days() const { return days_; }
     bool damaged() const { return damaged_; }
 
   private:

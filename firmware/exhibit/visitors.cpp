@@ -21,18 +21,11 @@ Visitors::News Visitors::see(Instant now, Instant untouched) {
         news.gone = true;
         news.dwell = last_touch_ - first_touch_;
     } else if (quiet >= idle_after_ - std::min(kWarning, idle_after_ / 2)) {
-        news.leaving = presence_ == Presence::Here;
         presence_ = Presence::Leaving;
     } else {
-        news.stayed = presence_ == Presence::Leaving;
         presence_ = Presence::Here;
     }
     return news;
-}
-
-Seconds Visitors::left(Instant now) const {
-    if (presence_ == Presence::Nobody) return Seconds(0.0);
-    return std::max(idle_after_ - Seconds(now - last_touch_), Seconds(0.0));
 }
 
 }  // namespace eddy

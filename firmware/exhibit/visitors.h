@@ -20,11 +20,9 @@ class Visitors {
 
     /// What has happened since the last look.
     struct News {
-        bool came = false;     ///< a new visitor
-        bool leaving = false;  ///< the warning is due
-        bool stayed = false;   ///< the warned one is still there
-        bool gone = false;     ///< back to the start of the scene, and attract
-        Seconds dwell{0.0};    ///< of the one who is gone: from the first touch to the last
+        bool came = false;   ///< a new visitor
+        bool gone = false;   ///< back to the start of the scene, and attract
+        Seconds dwell{0.0};  ///< of the one who is gone: from the first touch to the last
     };
     /// `untouched`: since the handle was touched; it may go back (a new scene knows of no touch yet).
     News see(Instant now, Instant untouched);
@@ -32,8 +30,6 @@ class Visitors {
     void closed(Instant now) { last_touch_ = now; }
 
     Presence presence() const { return presence_; }
-    /// Until the visitor counts as gone; for the warning on the screen.
-    Seconds left(Instant now) const;
     /// Counts that live: takes effect with the next look.
     void set_idle_after(Seconds idle_after) { idle_after_ = idle_after; }
 

@@ -53,7 +53,6 @@ void KeptLine::lose(Instant now, const char* why) {
     line_.reset();
     written_.reset();
     tried_at_ = now;
-    ++lost_;
     trouble_ = fmt::format("GPIO line '{}' went away ({}): is its USB bridge plugged in?", address_, why);
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdint>
 #include <optional>
 
 #include "hal/clock.h"
@@ -28,8 +27,6 @@ class KeptLine {
 
     /// Why it is away, in a sentence; empty while it is there.
     const std::string& trouble() const { return trouble_; }
-    /// Times that it went away.
-    std::uint64_t lost() const { return lost_; }
 
   private:
     bool is_there(Instant now);
@@ -43,7 +40,6 @@ class KeptLine {
     std::optional<bool> written_;
     Instant written_at_{0};
     std::string trouble_;
-    std::uint64_t lost_ = 0;
 };
 
 }  // namespace eddy

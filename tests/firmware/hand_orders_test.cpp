@@ -60,18 +60,13 @@ TEST(HandOrders, GivenAnewKeepTheirCountOfResets) {
     EXPECT_EQ(exchange.orders.newest().gain, 3.0);
 }
 
-TEST(HandOrders, GivenAnewForgetNeitherAStopNorARestart) {
+TEST(HandOrders, GivenAnewForgetNoRestart) {
     HapticExchange exchange;
     HandOrders orders(exchange);
-    orders.stop(true);
     orders.restart();
     orders.give({.enabled = true});
     EXPECT_TRUE(exchange.orders.newest().enabled);
-    EXPECT_TRUE(exchange.orders.newest().stop);
     EXPECT_EQ(exchange.orders.newest().restarts, 1u);
-    orders.stop(false);
-    EXPECT_FALSE(exchange.orders.newest().stop);
-    EXPECT_TRUE(exchange.orders.newest().enabled);
 }
 
 TEST(HandOrders, NeverReleaseAStopByThemselves) {

@@ -24,7 +24,6 @@ class FlipWatch {
 
     /// What is due now; each is said once, and counts as a frame that was sent.
     Cure due(Instant now);
-    bool waiting() const { return since_.has_value(); }
 
   private:
     std::optional<Instant> since_;

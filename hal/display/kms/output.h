@@ -20,7 +20,6 @@ class Output {
     /// By atomic commits, if it can be, or by the older calls.
     void use_atomic(bool on) { atomic_ = on && can_be_atomic_; }
     std::uint32_t crtc() const { return crtc_; }
-    std::uint32_t connector() const { return connector_; }
     /// What the plane takes in this format; empty: the driver names none.
     std::vector<std::uint64_t> modifiers(std::uint32_t format) const;
     bool takes(std::uint32_t format) const;

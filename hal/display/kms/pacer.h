@@ -20,7 +20,6 @@ class Pacer {
     bool driver_paces() const { return !unpaced_; }
     /// When the next frame may be sent; no time: at once.
     std::optional<Instant> next() const;
-    Instant period() const { return period_; }
 
   private:
     Instant period_;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <functional>
@@ -107,7 +108,6 @@ TEST(Panel, SeesTheStopInputTheFirstTimeItLooks) {
     desk.press_stop(true);
     desk.work.work(desk.now += 10ms);
     EXPECT_TRUE(desk.stopped());
-    EXPECT_TRUE(desk.work.news().stop_pressed);
 }
 
 TEST(Panel, AStopIsLetGoWhenItRests) {
@@ -146,9 +146,7 @@ TEST(Panel, ABridgeThatIsUnpluggedStopsAndPressesNoButton) {
     desk.run(10ms);
     EXPECT_TRUE(desk.stopped());
     PanelNews news = desk.work.news();
-    EXPECT_TRUE(news.stop_pressed);
     EXPECT_FALSE(news.shutdown);
-    EXPECT_EQ(news.lost, 2U);
     EXPECT_THAT(news.trouble, HasSubstr("GPIO line 'bridge:0' went away"));
     EXPECT_THAT(news.trouble, HasSubstr("GPIO line 'bridge:1' went away"));
     desk.run(5s);
@@ -161,7 +159,6 @@ TEST(Panel, ABridgeThatIsUnpluggedStopsAndPressesNoButton) {
     EXPECT_FALSE(desk.stopped());
     news = desk.work.news();
     EXPECT_EQ(news.trouble, "");
-    EXPECT_EQ(news.lost, 2U);
     EXPECT_EQ(news.resets, 0U);
     EXPECT_FALSE(news.shutdown);
     desk.press_button(100ms);
@@ -191,7 +188,7 @@ TEST(Panel, SaysWhatIsWrongWithLinesItCannotHave) {
     EXPECT_THAT(trouble, HasSubstr("there is no GPIO line called 'Gren'"));
     EXPECT_THAT(trouble, HasSubstr("is used by 'gpio-keys'"));
     EXPECT_THAT(trouble, HasSubstr("Invalid argument"));
-    EXPECT_EQ(desk.work.news().lost, 0U) << "they never were there";
+    EXPECT_THAT(trouble, testing::Not(HasSubstr("went away"))) << "they never were there";
 }
 
 TEST(Panel, LightsTheLampsOfACode) {
@@ -273,7 +270,8 @@ TEST(Panel, LampsThatWereAwayAreLitAgain) {
     desk.run(1s);
     desk.gpio.unplug("header");
     desk.run(1500ms);  // a lamp that does not change is found out when it is said again
-    EXPECT_EQ(desk.work.news().lost, 3U);
+    const std::string trouble = desk.work.news().trouble;
+    EXPECT_EQ(std::count(trouble.begin(), trouble.end(), '\n'), 2) << "three lines are away";
     desk.gpio.set_high("G", false);
     desk.gpio.plug_in("header");
     desk.run(1500ms);

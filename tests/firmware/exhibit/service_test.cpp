@@ -108,14 +108,6 @@ TEST_F(ServiceTest, AtTwoFramesASecondItLivesOn) {
     EXPECT_GE(fed(), 20);
 }
 
-TEST_F(ServiceTest, AnEndedPartIsNotWaitedFor) {
-    begin();
-    service_.heartbeats().forget(Part::Haptic);
-    run(0s, 40s, 0s);
-    EXPECT_GE(fed(), 15);
-    EXPECT_EQ(service_.heartbeats().hanging(40s), std::nullopt);
-}
-
 TEST_F(ServiceTest, MakingASceneTakesAsLongAsItTakes) {
     begin();
     run(0s, 10s, 10s);
