@@ -50,7 +50,7 @@ inline constexpr std::array<LampRow, 13> kLampRows{{
      "GGGGGGG.", "*******.", "C"},
     {LampCode::Closed, "closed", "closed: outside its opening hours",
      "G...............", "*...............", "B..............."},
-    {LampCode::Degraded, "degraded", "it runs, but not with all it should have: no Falcon, late ticks, fallback settings",
+    {LampCode::Degraded, "degraded", "it runs, but not with all it should have: no Falcon, no screen, a line away, fallback settings",
      "AA..", "*.*.*.*.......", "YY.."},
     {LampCode::Fault, "fault", "a fault that needs somebody: call the technician",
      "R.", "*.", "R."},

@@ -18,8 +18,10 @@ inline constexpr Word<ExhibitState> kExhibitStates[] = {
     {ExhibitState::Attract, "attract", "open, nobody at the handle"},
     {ExhibitState::InUse, "in_use", "somebody at the handle"},
     {ExhibitState::Closed, "closed", "outside the opening hours: no picture, no force"},
-    {ExhibitState::Degraded, "degraded", "a show, but not all of it: no device, or force off"},
-    {ExhibitState::Fault, "fault", "no show"},
+    {ExhibitState::Degraded, "degraded",
+     "a show, but not all of it: no device or screen, a line of the panel away, other settings, or force "
+     "off"},
+    {ExhibitState::Fault, "fault", "the haptic device has given up: a show without a hand"},
     {ExhibitState::Safe, "safe", "safe mode: factory settings, no force"},
 };
 constexpr std::span<const Word<ExhibitState>> words_of(ExhibitState) {

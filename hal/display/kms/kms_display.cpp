@@ -111,7 +111,8 @@ void KmsDisplay::attach(std::vector<Monitor> monitors) {
     }
     touched_.insert(output_->crtc());
 
-    // Mode, and the kind of window; what the card refuses is not tried again until something changes.
+    // Mode, and the kind of window: each that the card refuses is followed by the next, and when all are refused all are
+    // tried again at the next look for monitors.
     attempts_ = attempts();
     attempt_ = 0;
     mode_is_set_ = false;

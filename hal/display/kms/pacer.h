@@ -16,7 +16,7 @@ class Pacer {
     void flipped(Instant sent, Instant time);
     /// Whether it came later than one and a half periods after it was sent, or after the one before it if that was later.
     bool was_late() const { return late_; }
-    /// Whether the driver is one of those.
+    /// Whether the driver is none of those: its flips wait for the refresh.
     bool driver_paces() const { return !unpaced_; }
     /// When the next frame may be sent; no time: at once.
     std::optional<Instant> next() const;
