@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <functional>
 
 #include "firmware/haptic/flight_file.h"
 #include "firmware/text_file.h"
+#include "firmware/utc_stamp.h"
 
 namespace eddy {
 namespace {
@@ -15,15 +15,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::string_view kExtension = ".flight";
-
-std::string utc_now(const char* format) {
-    const std::time_t now = std::time(nullptr);
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    char text[40];
-    const std::size_t length = std::strftime(text, sizeof(text), format, &utc);
-    return {text, length};
-}
 
 }  // namespace
 
@@ -56,11 +47,11 @@ void FlightKeeper::work() {
 
 void FlightKeeper::keep(Flight flight) {
     flight.version = EDDY_VERSION;
-    flight.written = utc_now("%Y-%m-%dT%H:%M:%SZ");
+    flight.written = utc_stamp();
     std::string said;
     try {
         make_folder(folder_);
-        const std::string stem = fmt::format("{}-{}", utc_now("%Y%m%dT%H%M%SZ"), to_word(flight.cause));
+        const std::string stem = fmt::format("{}-{}", utc_stamp("%Y%m%dT%H%M%SZ"), to_word(flight.cause));
         std::filesystem::path file = folder_ / fmt::format("{}{}", stem, kExtension);
         for (int n = 2; std::filesystem::exists(file); ++n)
             file = folder_ / fmt::format("{}-{}{}", stem, n, kExtension);

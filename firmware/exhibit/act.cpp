@@ -185,4 +185,11 @@ void Act::adjust_gain() {
     if (const auto news = gain_.news()) news_.push_back(*news);
 }
 
+void Act::release_latch(Instant now, const LoopReport& report) {
+    const std::optional<GateReason> cause = orders_->cause_gone(now, report);
+    if (!cause) return;
+    if (*cause == GateReason::NotFinite) reset();
+    orders_->release_latch();
+}
+
 }  // namespace eddy

@@ -53,6 +53,8 @@ class Act {
     const gles::Renderer& draw(Instant now, const std::string& caption = {});
     /// The gain follows the rate at which the fluid answers.
     void adjust_gain();
+    /// Releases a latch whose cause is gone; a fluid that gave no numbers begins anew first.
+    void release_latch(Instant now, const LoopReport& report);
     void show_cost(bool shown) { views_.show_cost(shown); }
     /// Back to the start of the scene. There is no force until the fluid has answered.
     void reset();

@@ -3,36 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include "config/override.h"
 #include "firmware/built_from.h"
+#include "firmware/exhibit/start_ledger.h"
 #include "firmware/text_file.h"
+#include "firmware/utc_stamp.h"
 
 namespace eddy {
 namespace {
 
 using namespace std::chrono_literals;
 
-std::string boot_of_this_machine() {
-    try {
-        return read_text_file("/proc/sys/kernel/random/boot_id");
-    } catch (const std::runtime_error&) {
-        return "unknown";
-    }
-}
-
 std::string this_program() {
     return fmt::format("{} ({})", EDDY_VERSION, kBuiltFrom);
-}
-
-std::string utc_now() {
-    const std::time_t now = std::time(nullptr);
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    char text[40];
-    return {text, std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc)};
 }
 
 template <class T>
@@ -62,7 +47,7 @@ bool ConfigOffer::needs_new_scene() const {
 ConfigIntake::ConfigIntake(Setup setup, Disk& disk)
     : setup_(std::move(setup)),
       memory_(setup_.state_dir.empty() ? std::filesystem::path() : setup_.state_dir / "config",
-              setup_.boot.empty() ? boot_of_this_machine() : setup_.boot,
+              setup_.boot.empty() ? boot_id() : setup_.boot,
               setup_.program.empty() ? this_program() : setup_.program, disk) {}
 
 void ConfigIntake::refuse(ConfigResult result, std::vector<Diagnostic> errors) {
@@ -184,7 +169,7 @@ void ConfigIntake::accepted(const std::string& hash, Instant now) {
     report_.source = source;
     report_.stands_in &= source == ConfigSource::Factory || !report_.pending_restart.empty();
     report_.running_hash = hash;
-    report_.applied_at = utc_now();
+    report_.applied_at = utc_stamp();
     report_.probation = !proven;
     ++report_.applied;
     publish();

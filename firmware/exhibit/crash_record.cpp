@@ -11,12 +11,12 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <functional>
 
 #include "firmware/built_from.h"
 #include "firmware/haptic/flight_file.h"
 #include "firmware/text_file.h"
+#include "firmware/utc_stamp.h"
 
 namespace eddy {
 namespace {
@@ -178,12 +178,7 @@ std::vector<std::string> CrashRecord::take_over(const fs::path& folder) {
     const std::size_t split = bytes.find(kMemory);
     const std::string text = bytes.substr(0, split);
     const std::string memory = split == std::string::npos ? "" : bytes.substr(split + kMemory.size());
-    const std::time_t now = std::time(nullptr);
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    char stem[40], written[40];
-    std::strftime(stem, sizeof(stem), "crash-%Y%m%dT%H%M%SZ", &utc);
-    std::strftime(written, sizeof(written), "%Y-%m-%dT%H:%M:%SZ", &utc);
+    const std::string stem = utc_stamp("crash-%Y%m%dT%H%M%SZ");
     try {
         const fs::path record = unused(folder, stem, ".txt");
         replace_text_file(record, text);
@@ -194,7 +189,7 @@ std::vector<std::string> CrashRecord::take_over(const fs::path& folder) {
             text.find(fmt::format("\nbuild {} {}\n", EDDY_VERSION, kBuiltFrom)) != std::string::npos;
         if (auto flight = same ? FlightRecorder::read_raw(memory) : std::nullopt) {
             flight->version = EDDY_VERSION;
-            flight->written = written;
+            flight->written = utc_stamp();
             const fs::path file = unused(folder, stem, ".flight");
             replace_text_file(file, flight_text(*flight));
             said.back() += fmt::format(

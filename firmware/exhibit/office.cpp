@@ -53,7 +53,6 @@ void Office::disk_trouble(const std::string& what) {
 }
 
 void Office::count_in(const std::filesystem::path& state_dir) {
-    if (usage_) return;
     usage_.emplace(state_dir);
     if (usage_->damaged())
         disk_trouble("the usage counts were damaged: they are put aside, and counting begins anew");

@@ -1,10 +1,9 @@
 #include "firmware/quality/tuner.h"
 
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 
 #include "firmware/fluid_setup.h"
@@ -13,6 +12,7 @@
 #include "firmware/render_setup.h"
 #include "firmware/scene_grid.h"
 #include "firmware/stopwatch.h"
+#include "firmware/utc_stamp.h"
 #include "gles/render/renderer.h"
 
 namespace eddy {
@@ -60,7 +60,10 @@ void move_held(std::vector<gles::BodyState>& bodies, const BodySchedule& motions
 }  // namespace
 
 Tuner::Tuner(gles::Gpu& gpu, const Scene& scene)
-    : gpu_(gpu), scene_(scene), half_width_share_(half_width_share(scene)), iterations_(iterations_for(scene)) {
+    : gpu_(gpu),
+      scene_(scene),
+      half_width_share_(half_width_share(scene)),
+      iterations_(iterations_for(scene)) {
     tuning_.version = EDDY_VERSION;
     tuning_.renderer = gpu.capabilities().renderer;
     tuning_.machine = describe_machine();
@@ -145,7 +148,7 @@ void Tuner::go_on(bool too_slow) {
     ++series_;
     if (done() && tuning_.ladder.empty())
         throw std::runtime_error("tune: no setting gives a force that is a number");
-    if (done()) tuning_.made_at = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+    if (done()) tuning_.made_at = utc_stamp();
 }
 
 }  // namespace eddy

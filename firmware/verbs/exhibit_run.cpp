@@ -39,10 +39,6 @@ constexpr const char* kPowerOff = "poweroff.request";
 constexpr const char* kGettingReady = "Getting the fluid ready";
 const std::vector<std::string> kMadeAnew{"One moment", "The picture is being made anew."};
 
-Instant instant(Seconds s) {
-    return std::chrono::duration_cast<Instant>(s);
-}
-
 std::filesystem::path state_folder(const RunOptions& options) {
     const std::filesystem::path folder =
         options.state_dir.empty() ? Exhibit{}.state_dir : std::filesystem::path(options.state_dir);
@@ -101,9 +97,10 @@ Instant ExhibitRun::period() const {
 // ---------------------------------------------------------------------------------------------------- the start
 
 void ExhibitRun::look_back() {
-    if (!office_.has_manager() || state_dir_.empty()) return;  // somebody who tries something out
-    office_.say(Event::Started, fmt::format("eddy {} ({})", EDDY_VERSION, kBuiltFrom));
+    if (state_dir_.empty()) return;
     office_.count_in(state_dir_);
+    if (!office_.has_manager()) return;  // somebody who tries something out
+    office_.say(Event::Started, fmt::format("eddy {} ({})", EDDY_VERSION, kBuiltFrom));
     office_.count(&Usage::starts);
     ledger_.emplace(state_dir_);
     verdict_ = ledger_->begin(std::time(nullptr), boot_id());
@@ -156,7 +153,6 @@ void ExhibitRun::open() {
     prelude(kGettingReady);
     visitors_.emplace(Seconds(exhibit.unattended.idle_after_s));
     opening_.emplace(exhibit.hours);
-    if (!state_dir_.empty()) office_.count_in(state_dir_);
     screenshot_.emplace(is_folder(exhibit.run_dir) ? exhibit.run_dir : std::filesystem::path());
 }
 
@@ -334,11 +330,9 @@ void ExhibitRun::heed_panel(Instant now) {
 }
 
 void ExhibitRun::heed_hand(Instant now) {
-    if (front_->plays()) front_->act().adjust_gain();
-    if (const auto cause = hand_->orders().cause_gone(now, hand_->report())) {
-        if (*cause == GateReason::NotFinite && front_->plays()) front_->act().reset();
-        hand_->orders().release_latch();
-    }
+    if (!front_->plays()) return;
+    front_->act().adjust_gain();
+    front_->act().release_latch(now, hand_->report());
 }
 
 void ExhibitRun::heed_visitors(Instant now) {

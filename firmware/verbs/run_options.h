@@ -9,6 +9,10 @@ namespace eddy {
 
 // What the options of a run come to, with the exhibit's settings where they say nothing.
 
+inline Instant instant(Seconds s) {
+    return std::chrono::duration_cast<Instant>(s);
+}
+
 /// The exhibit's settings, but for what the command line says otherwise.
 Exhibit with_options(Exhibit exhibit, const RunOptions& options);
 

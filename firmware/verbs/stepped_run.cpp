@@ -21,10 +21,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Instant instant(Seconds s) {
-    return std::chrono::duration_cast<Instant>(s);
-}
-
 }  // namespace
 
 int run_stepped(const RunOptions& options) {
@@ -59,10 +55,7 @@ int run_stepped(const RunOptions& options) {
     const auto report = [&](Instant now) {
         act.adjust_gain();
         for (const std::string& line : act.news()) fmt::print(stderr, "run: {}\n", line);
-        if (const auto cause = hand.orders().cause_gone(now, hand.report())) {
-            if (*cause == GateReason::NotFinite) act.reset();
-            hand.orders().release_latch();
-        }
+        act.release_latch(now, hand.report());
         progress.show(Seconds(now).count(), *options.seconds,
                       fmt::format("{} fluid steps", act.show().figures().steps));
     };
