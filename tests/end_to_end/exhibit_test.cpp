@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -111,7 +112,10 @@ TEST_F(ExhibitEndToEnd, PlaysTheOldSceneUntilTheNewOneIsReady) {
     EXPECT_TRUE(in_time([&] { return read("status.json").at("scene") != "In the jet"; }));
     EXPECT_EQ(answer().at("result"), "applied");
     EXPECT_GT(steps(), 0);
-    EXPECT_TRUE(in_time([&] { return read("status.json").at("haptics").at("force") != ""; }));
+    const auto force = [&] { return read("status.json").at("haptics").at("force"); };
+    EXPECT_TRUE(in_time([&] {
+        return force() == to_string(GateReason::Starting) || force() == to_string(GateReason::Open);
+    })) << force();
     exhibit.send(SIGTERM);
     EXPECT_EQ(exhibit.wait().status, 0);
 }
@@ -213,6 +217,58 @@ TEST_F(ExhibitEndToEnd, DoesNotBuildASceneAgainThatKilledItWhileItWasBuilt) {
     EXPECT_EQ(read("status.json").at("scene"), "In the jet");
     exhibit.send(SIGTERM);
     EXPECT_EQ(exhibit.wait().status, 0);
+}
+
+TEST_F(ExhibitEndToEnd, EndsWhenAskedWhileItBuildsASceneBesideTheShowAndBlamesNobody) {
+    {
+        Program exhibit(slow_command());
+        ASSERT_TRUE(plays());
+        drop("scene = \"everything\"\n");
+        ASSERT_TRUE(builds());
+        exhibit.send(SIGTERM);
+        const Ended ended = exhibit.wait();
+        EXPECT_EQ(ended.status, 0) << ended.err;
+        EXPECT_THAT(ended.out, HasSubstr("In the jet")) << "what played is summed up";
+        EXPECT_EQ(answer().at("result"), "trying") << "it ended in the middle of that";
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "var/config/probation"));
+}
+
+TEST_F(ExhibitEndToEnd, FeedsItsWatchdogWhileItBuildsASceneBesideTheShow) {
+    ManagerSocket manager(folder / "notify");
+    std::vector<std::string> arguments = slow_command();
+    arguments.insert(arguments.begin() + 1,
+                     {"NOTIFY_SOCKET=" + (folder / "notify"), "WATCHDOG_USEC=2000000"});
+    Program exhibit(arguments);
+    std::vector<std::string> heard;
+    const auto hear = [&] {
+        for (std::string& message : manager.messages()) heard.push_back(std::move(message));
+    };
+    const auto count = [&](const std::string& message) {
+        hear();
+        return std::count(heard.begin(), heard.end(), message);
+    };
+    EXPECT_TRUE(in_time([&] { return count("READY=1") > 0; })) << "no picture is wanted of it";
+    ASSERT_TRUE(plays());
+    drop("scene = \"everything\"\n");
+    ASSERT_TRUE(builds());
+    hear();
+    heard.clear();
+    EXPECT_TRUE(in_time([&] { return count("WATCHDOG_USEC=180000000") > 0; })) << "a shader may take long";
+    EXPECT_TRUE(in_time([&] { return count("WATCHDOG=1") > 2; })) << "and in the pauses it lives";
+    EXPECT_TRUE(in_time([&] {
+        hear();
+        return read("status.json").at("scene") != "In the jet";
+    }));
+    EXPECT_TRUE(in_time([&] { return count("WATCHDOG=1") > 10; }));
+    const auto last = std::find_if(heard.rbegin(), heard.rend(),
+                                   [](const std::string& m) { return m.starts_with("WATCHDOG_USEC="); });
+    ASSERT_NE(last, heard.rend());
+    EXPECT_EQ(*last, "WATCHDOG_USEC=2000000") << "as strict as before, when all is done";
+    exhibit.send(SIGTERM);
+    const Ended ended = exhibit.wait();
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, Not(HasSubstr("does not get on")));
 }
 
 TEST_F(ExhibitEndToEnd, GivesAPictureToWhoAsksForOne) {
