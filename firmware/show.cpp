@@ -133,7 +133,8 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     const Seconds part = dt / parts;
     const auto held = motions_.held();
     const glm::dvec3 from = held ? states_[*held].centre_m : glm::dvec3(0.0);
-    const glm::dvec3 to = pose.known ? pose.position_m : from;
+    const glm::dvec3 hand_m = path_.at(pose, now);
+    const glm::dvec3 to = pose.known ? hand_m : from;
     // Of the displacement, not of the handle: what the body pushes away must agree with where it goes. But the
     // first position after a gap (a device that has just come, a stall of the fluid) is where the hand happens
     // to be, not a movement, and neither is a leap that no hand makes: the body is placed there, at rest.
@@ -189,6 +190,7 @@ void Show::reset() {
     states_ = motions_.at(0.0, scene_.solver.dt_s);
     under_way_.clear();
     hand_known_ = false;
+    path_.forget();
     held_velocity_m_s_ = glm::dvec3(0.0);
     stored_j_ = 0.0;
     ripple_.reset();

@@ -7,6 +7,7 @@
 #include "firmware/force_ripple.h"
 #include "firmware/gain_limit.h"
 #include "firmware/haptic/exchange.h"
+#include "firmware/haptic/hand_path.h"
 #include "firmware/quality/force_handover.h"
 #include "firmware/quality/quality.h"
 #include "gles/fluid/fluid.h"
@@ -96,6 +97,7 @@ class Show {
     double time_s_ = 0.0;  // of the fluid; falls behind the clock when steps are too slow and dt is capped
     Instant last_{0};
     bool hand_known_ = false;  // the device gave a position for the last step
+    HandPath path_;
     FluidSnapshot answer_;     // the last given to the haptic loop
     double stored_j_ = 0.0;    ///< kinetic energy of the fluid, of the last step that was diagnosed
     double received_j_ = 0.0;  ///< by the fluid from the held body

@@ -20,7 +20,7 @@ Play play(StudyFluid& fluid, Handle& handle, const Order& order) {
         play.ticks.push_back({handle.position_m(), tick.sent_force_n});
         const Instant due =
             std::chrono::duration_cast<Instant>(Seconds(period_s * static_cast<double>(updates + 1)));
-        if (now + kTick < due) continue;
+        if (now + kTick <= due) continue;
         fluid.publish();
         if (updates > 0) play.answers.push_back(fluid.exchange.fluid.newest());
         fluid.update(due, due - last);

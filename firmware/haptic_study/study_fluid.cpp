@@ -8,10 +8,11 @@ HapticOrders KnownFluid::orders() const {
     return {.enabled = true, .lowest_m = glm::dvec3(-0.05), .highest_m = glm::dvec3(0.05)};
 }
 
-void KnownFluid::update(Instant, Seconds dt) {
+void KnownFluid::update(Instant now, Seconds dt) {
     const PoseSnapshot& pose = exchange.pose.newest();
+    const glm::dvec3 position_m = path_.at(pose, now);
     const glm::dvec3 velocity_m_s =
-        placed_ && pose.known ? (pose.position_m - position_m_) / dt.count() : glm::dvec3(0.0);
+        placed_ && pose.known ? (position_m - position_m_) / dt.count() : glm::dvec3(0.0);
     const glm::dvec3 acceleration_m_s2 = (velocity_m_s - velocity_m_s_) / dt.count();
     const glm::dvec3 force_n =
         settings_.push_n - settings_.drag_ns_m * velocity_m_s - settings_.added_kg * acceleration_m_s2;
@@ -25,7 +26,7 @@ void KnownFluid::update(Instant, Seconds dt) {
                                 glm::dot(force_n, 0.5 * (velocity_m_s + velocity_m_s_)) * dt.count()};
     velocity_m_s_ = velocity_m_s;
     if (pose.known) {
-        position_m_ = pose.position_m;
+        position_m_ = position_m;
         placed_ = true;
     }
 }

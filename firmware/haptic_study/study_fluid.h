@@ -1,6 +1,7 @@
 #pragma once
 #include "config/scene.h"
 #include "firmware/haptic/exchange.h"
+#include "firmware/haptic/hand_path.h"
 #include "firmware/show.h"
 
 namespace eddy::haptic_study {
@@ -36,6 +37,7 @@ class KnownFluid final : public StudyFluid {
   private:
     Settings settings_;
     FluidSnapshot under_way_{}, done_{};
+    HandPath path_;
     bool placed_ = false;
     glm::dvec3 position_m_{0.0}, velocity_m_s_{0.0};
 };
