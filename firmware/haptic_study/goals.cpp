@@ -73,7 +73,8 @@ Goal energy(const Study& study) {
         if (row.law != ForceLaw::Model) continue;
         ++all;
         driven += row.figures.least_cycle_j <= 0.0;
-        if (row.figures.drag_j > 0.0) least = std::min(least, row.figures.least_cycle_j / row.figures.drag_j);
+        if (row.figures.received_j > 0.0)
+            least = std::min(least, row.figures.least_cycle_j / row.figures.received_j);
     }
     return {"in fluid at rest every cycle costs the hand energy, at 0.5 to 5 Hz",
             fmt::format("{} of {} runs; the cheapest cycle costs {:.2f} of what the fluid received in one",
@@ -91,7 +92,7 @@ Goal dearness(const Study& study) {
         worst = ratio;
         at_hz = row.stir_hz;
     }
-    return {"and at most a fifth more than the fluid receives, at 0.5 to 5 Hz",
+    return {"and at most a fifth more than the work of such a drag, at 0.5 to 5 Hz",
             fmt::format("{:.2f} of it at the most, at {:g} Hz; up to 1 Hz {:.2f}", worst, at_hz, steadiest),
             worst <= 1.2};
 }

@@ -58,10 +58,16 @@ double rms(Forces forces) {
 
 double trembling(Forces forces) {
     const double seconds = kTickS * static_cast<double>(forces.size());
+    // Through a window of Hann, or a force that ends elsewhere than it began would be a jump with parts at all frequencies.
+    std::vector<glm::dvec3> seen(forces.begin(), forces.end());
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        seen[i] *= 1.0 - std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
+                                  static_cast<double>(seen.size()));
+    constexpr double kPowerOfWindow = 1.5;
     double sum = 0.0;
     for (double turns = std::ceil(kLowestHz * seconds); turns <= kHighestHz * seconds; ++turns)
-        for (int axis = 0; axis < 3; ++axis) sum += 2.0 * std::norm(component(forces, axis, turns));
-    return std::sqrt(sum);
+        for (int axis = 0; axis < 3; ++axis) sum += 2.0 * std::norm(component(seen, axis, turns));
+    return std::sqrt(sum / kPowerOfWindow);
 }
 
 double lag_s(Forces forces, Forces reference) {

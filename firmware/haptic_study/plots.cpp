@@ -88,7 +88,7 @@ GnuplotPicture quality_picture(const Study& study, const std::filesystem::path& 
     return {folder / "quality.png", 1300, 460, commands + "unset multiplot\n"};
 }
 
-/// What a cycle costs, as a share of what the fluid received, at 20 answers a second.
+/// What a cycle costs, as a share of what its drag would take, at 20 answers a second.
 GnuplotPicture energy_picture(const Study& study, const std::filesystem::path& folder) {
     const std::vector<std::string> names = fluids_of(study);
     std::string data, plot;
@@ -111,7 +111,7 @@ GnuplotPicture energy_picture(const Study& study, const std::filesystem::path& f
         folder / "energy.png", 760, 460,
         data +
             "set logscale x\nset xrange [0.4:6]\nset xtics (0.5, 1, 2, 5)\nset xlabel 'the hand stirs [Hz]'\n"
-            "set ylabel 'cost of a cycle / received by the fluid'\nset key top left\n"
+            "set ylabel 'cost of a cycle / work of such a drag'\nset key top left\n"
             "set title 'Energy at 20 answers a second: below 0 the force drives the hand'\n"
             "set arrow 1 from 0.4,0 to 6,0 nohead lc rgb '#404040'\n" +
             plot + "\n"};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "firmware/haptic_study/paths.h"
 
@@ -20,6 +21,13 @@ std::vector<glm::dvec3> forces(const Play& play, std::size_t from, std::size_t t
     std::vector<glm::dvec3> all;
     for (std::size_t i = from; i < std::min(to, play.ticks.size()); ++i) all.push_back(play.ticks[i].force_n);
     return all;
+}
+
+/// Of the work of a drag on a circle, what a fluid receives that sees the circle as chords: its velocity is shorter by
+/// sinc(f / fs), and the work is counted over the mean of two chords, an angle of 2 pi f / fs apart, which is cos^2(pi f / fs) more.
+double seen_of_drag(double stir_hz, double rate_hz) {
+    const double half_turn = std::numbers::pi * stir_hz / rate_hz;
+    return std::pow(std::sin(half_turn) / half_turn * std::cos(half_turn), 2);
 }
 
 }  // namespace
@@ -84,8 +92,9 @@ StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double
     if (after != tried.answers.end()) {
         const FluidSnapshot &first = *after, &last = tried.answers.back();
         const double turns = Seconds(last.computed_for - first.computed_for).count() * stir_hz;
-        f.drag_j = (last.received_j - first.received_j) * tried.orders.gain /
-                   tried.orders.tank_from_device.scale / turns;
+        f.received_j = (last.received_j - first.received_j) * tried.orders.gain /
+                       tried.orders.tank_from_device.scale / turns;
+        f.drag_j = f.received_j / seen_of_drag(stir_hz, rate_hz);
     }
     return f;
 }

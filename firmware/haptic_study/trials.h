@@ -37,7 +37,8 @@ inline constexpr double kStirsHz[] = {0.5, 1.0, 2.0, 5.0};
 struct StirFigures {
     double least_cycle_j = 0.0;  ///< what the cheapest cycle costs the hand
     double mean_cycle_j = 0.0;
-    double drag_j = 0.0;  ///< what the fluid received in a cycle by its own books
+    double received_j = 0.0;  ///< what the fluid received in a cycle by its own books
+    double drag_j = 0.0;  ///< what a drag takes that received so much of a hand which it sees at its own rate
 };
 StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double stir_hz);
 
