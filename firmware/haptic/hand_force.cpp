@@ -1,12 +1,18 @@
 #include "firmware/haptic/hand_force.h"
 
+#include <cmath>
+
+#include "firmware/haptic/low_pass.h"
 #include "firmware/haptic/stability_limits.h"
+#include "firmware/haptic/vector.h"
 
 namespace eddy {
 namespace {
 
 /// Of the bandwidth for what the model does not explain, given up where it explains all.
 constexpr double kLaterShare = 0.6;
+/// How much must be explained for the rest to be rounded off twice: the time of the second low-pass is this power of it.
+constexpr double kTwice = 4.0;
 
 }  // namespace
 
@@ -15,16 +21,24 @@ glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const H
     const double gain = orders.gain, scale = orders.tank_from_device.scale;
     if (law_ == ForceLaw::Filter) return filter_(gain * fluid.force_n, fluid.fluid_period, dt);
 
-    follow(hand, scale);
+    follow(hand, scale, dt);
     if (fresh) hear(fluid, gain, scale);
     model_.follow(dt);
     const glm::dvec3 unexplained_n =
         fluid.force_n - model_.force_n(fluid.velocity_m_s, fluid.acceleration_m_s2);
-    const glm::dvec3 explained_n = model_.force_n(body_.velocity_m_s(), body_.acceleration_m_s2());
+    const EnergyMatch::Shares shares = match_.follow(model_.drag_ns_m(), model_.added_kg(), dt);
+    const glm::dvec3 explained_n = model_.force_n(scale * shares.drag * hand_.velocity_m_s(),
+                                                  scale * shares.added * hand_.acceleration_m_s2());
     const glm::dvec3 damping_n = passivity_.damping_n(hand.velocity_m_s);
     // The more the model explains, the less of the rest is the hand's: it may come later and smoother.
     const Seconds smoothed = fluid.fluid_period / (1.0 - kLaterShare * model_.explained());
-    const glm::dvec3 force_n = filter_(gain * unexplained_n, smoothed, dt) + gain * explained_n + damping_n;
+    glm::dvec3 rest_n = filter_(gain * unexplained_n, smoothed, dt);
+    if (is_finite(rest_n)) {
+        // Where it explains nearly all, the rest is the grid that the body crosses, a little at each answer: rounded off twice.
+        const double again_hz = filter_.cutoff_hz(smoothed) / std::pow(model_.explained(), kTwice);
+        rest_n = rest_n_ = glm::mix(rest_n_, rest_n, low_pass_weight(again_hz, dt));
+    }
+    const glm::dvec3 force_n = rest_n + gain * explained_n + damping_n;
     passivity_.given(force_n, damping_n);
     report_ = {.drag_ns_m = gain * scale * model_.drag_ns_m(),
                .added_kg = gain * scale * model_.added_kg(),
@@ -34,14 +48,17 @@ glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const H
     return force_n;
 }
 
-void HandForce::follow(const HandAtTick& hand, double scale) {
+void HandForce::follow(const HandAtTick& hand, double scale, Seconds dt) {
     if (!hand.known) {
-        body_.forget();
+        hand_.forget();
+        match_.forget();
         passivity_.begin_anew();
         return;
     }
-    if (hand.moved_at) body_.take(hand.body_m, *hand.moved_at);
-    passivity_.moved_to(hand.body_m / scale, hand.now);
+    const glm::dvec3 handle_m = hand.body_m / scale;
+    if (hand.moved_at) hand_.take(handle_m, *hand.moved_at);
+    match_.moved_to(handle_m, hand_.velocity_m_s(), hand_.acceleration_m_s2(), dt);
+    passivity_.moved_to(handle_m, hand.now);
 }
 
 /// Slopes and energies of the fluid are those of the tank; the handle moves 1 / scale as far, and feels gain times as much.

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "firmware/haptic/energy_match.h"
 #include "firmware/haptic/exchange.h"
 #include "firmware/haptic/force_filter.h"
 #include "firmware/haptic/local_model.h"
@@ -21,7 +22,7 @@ struct HandAtTick {
 /// The fluid's answers made into a force for each tick, by one law or the other. With the model it is
 ///   gain (low-pass(F - model(v, a)) + model(v now, a now)) - damping v,
 /// F the newest answer and v, a the motion of the body that it belongs to: as long as nothing is known of the slopes this is
-/// the other law.
+/// the other law. Of the model now, as much as the work of its drag allows (energy_match.h).
 class HandForce {
   public:
     HandForce() = default;
@@ -38,13 +39,15 @@ class HandForce {
 
   private:
     void hear(const FluidSnapshot& fluid, double gain, double scale);
-    void follow(const HandAtTick& hand, double scale);
+    void follow(const HandAtTick& hand, double scale, Seconds dt);
 
     ForceLaw law_ = ForceLaw::Model;
     ForceFilter filter_{};
     LocalModel model_{};
-    MotionTracker body_{};
+    MotionTracker hand_{};  ///< the body's motion, as the handle makes it
+    EnergyMatch match_{};
     Passivity passivity_{};
+    glm::dvec3 rest_n_{0.0};   ///< what the model does not explain, rounded off
     double received_j_ = 0.0;  ///< as the last answer said
     ForceReport report_{};
 };

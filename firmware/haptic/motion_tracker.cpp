@@ -1,7 +1,7 @@
 #include "firmware/haptic/motion_tracker.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "firmware/haptic/vector.h"
 
@@ -9,8 +9,13 @@ namespace eddy {
 namespace {
 
 constexpr Seconds kLongestGap{0.05};
-/// Three equal poles are 3 dB down at 0.51 of their own frequency.
-constexpr double kPoles_1_s = 2.0 * std::numbers::pi * MotionTracker::kTrackerHz / 0.5098;
+
+/// The poles for a hand that is so far from where it was expected.
+double poles_1_s(double missed_m) {
+    using T = MotionTracker;
+    const double open = std::clamp((missed_m - T::kExpectedM) / (T::kMissedM - T::kExpectedM), 0.0, 1.0);
+    return std::lerp(T::kCalm_1_s, T::kQuick_1_s, open);
+}
 
 }  // namespace
 
@@ -25,12 +30,12 @@ void MotionTracker::take(const glm::dvec3& position_m, Instant at) {
         return;
     }
     const double dt = gap.count();
-    const double kept = std::exp(-kPoles_1_s * dt), given_up = 1.0 - kept;
-    const double g = 1.0 - kept * kept * kept, h = 1.5 * given_up * given_up * (1.0 + kept),
-                 k = given_up * given_up * given_up;
     position_m_ += dt * velocity_m_s_ + 0.5 * dt * dt * acceleration_m_s2_;
     velocity_m_s_ += dt * acceleration_m_s2_;
     const glm::dvec3 missed = position_m - position_m_;
+    const double kept = std::exp(-poles_1_s(glm::length(missed)) * dt), given_up = 1.0 - kept;
+    const double g = 1.0 - kept * kept * kept, h = 1.5 * given_up * given_up * (1.0 + kept),
+                 k = given_up * given_up * given_up;
     position_m_ += g * missed;
     velocity_m_s_ += h / dt * missed;
     acceleration_m_s2_ += k / (dt * dt) * missed;

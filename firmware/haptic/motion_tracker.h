@@ -8,12 +8,16 @@ namespace eddy {
 
 /// Velocity and acceleration from a series of positions that come in steps of an encoder count. A g-h-k filter with three equal
 /// poles (E. Brookner, Tracking and Kalman Filtering Made Easy, 1998: "fading memory"): it follows a steady acceleration
-/// without any lag, and rounds off what is quicker than kTrackerHz.
+/// without any lag, and rounds off what is quicker than its poles. They are slow while the hand is where it was expected, and
+/// quicker the further it is from there: who stirs gets a smooth force, who sets off an early one.
 class MotionTracker {
   public:
-    /// -3 dB of the acceleration; the three poles lie at 1 / 0.51 of that. Lower is smoother and later: as eddy haptics --quick
-    /// has it, encoder counts make the force on a stirring hand tremble by 0.45 % and it is 12 ms late; at 6 Hz 1.0 %, 6 ms.
-    static constexpr double kTrackerHz = 4.0;
+    /// Slower is smoother and later: as eddy haptics --quick has it, encoder counts make the force on a stirring hand tremble by
+    /// 0.30 % with 40, 0.38 % with 45, and half of the force of a hand that sets off is there after 10 ms.
+    static constexpr double kCalm_1_s = 40.0, kQuick_1_s = 70.0;
+    /// Metres of the handle. A circle of 20 mm a second is missed by 0.08 mm (the radius times the cube of its frequency over
+    /// the pole), a count is 0.06 mm; a hand that sets off at 0.1 m/s is missed by 1 mm after 10 ms.
+    static constexpr double kExpectedM = 0.15e-3, kMissedM = 0.65e-3;
 
     /// The position at a time; one that is not later than the last changes nothing. After a gap of more than 50 ms it starts
     /// anew, at rest.

@@ -23,13 +23,13 @@ MotionTracker tracked(const std::function<double(double)>& x_m, int ms, double c
 }
 
 TEST(MotionTracker, FollowsASteadyAccelerationWithoutLag) {
-    const MotionTracker tracker = tracked([](double t) { return 0.1 + 0.2 * t + 0.5 * 3.0 * t * t; }, 500);
-    EXPECT_NEAR(tracker.velocity_m_s().x, 0.2 + 3.0 * 0.5, 1e-6);
+    const MotionTracker tracker = tracked([](double t) { return 0.1 + 0.2 * t + 0.5 * 3.0 * t * t; }, 1000);
+    EXPECT_NEAR(tracker.velocity_m_s().x, 0.2 + 3.0 * 1.0, 1e-6);
     EXPECT_NEAR(tracker.acceleration_m_s2().x, 3.0, 1e-6);
 }
 
 TEST(MotionTracker, IsBehindAStirringHandAsItsThreePolesSay) {
-    const double w = 2.0 * std::numbers::pi, pole = w * MotionTracker::kTrackerHz / 0.5098;  // 1 Hz
+    const double w = 2.0 * std::numbers::pi, pole = MotionTracker::kCalm_1_s;  // 1 Hz
     const MotionTracker tracker = tracked([w](double t) { return 0.02 * std::sin(w * t); }, 4100);
     const std::complex<double> s(0.0, w), three = std::pow(s + pole, 3), now = std::polar(0.02, w * 4.1);
     // Of x = Im(now): v = s (3 p2 s + p3) / (s + p)3 x,  a = s2 p3 / (s + p)3 x.
@@ -37,18 +37,17 @@ TEST(MotionTracker, IsBehindAStirringHandAsItsThreePolesSay) {
     const double a = (now * s * s * pole * pole * pole / three).imag();
     EXPECT_NEAR(tracker.velocity_m_s().x, v, 0.01 * 0.02 * w);
     EXPECT_NEAR(tracker.acceleration_m_s2().x, a, 0.01 * 0.02 * w * w);
-    EXPECT_NEAR(v, 0.02 * w * std::cos(w * 4.1), 0.06 * 0.02 * w);  // and that is not far
+    EXPECT_NEAR(v, 0.02 * w * std::cos(w * 4.1), 0.08 * 0.02 * w);  // and that is not far
 }
 
-TEST(MotionTracker, IsThreeDecibelsDownAtItsFrequency) {
-    const double w = 2.0 * std::numbers::pi * MotionTracker::kTrackerHz;
+TEST(MotionTracker, AHandThatSetsOffIsFollowedAtOnce) {
     MotionTracker tracker;
-    double most = 0.0;
-    for (int i = 0; i <= 2000; ++i) {
-        tracker.take({std::sin(w * 1e-3 * i) / (w * w), 0.0, 0.0}, milliseconds(i));
-        if (i > 1000) most = std::max(most, std::abs(tracker.acceleration_m_s2().x));
+    int half_ms = 0;
+    for (int i = -100; i < 100 && half_ms == 0; ++i) {
+        tracker.take({0.1 * std::max(0.0, 1e-3 * i), 0.0, 0.0}, milliseconds(1000 + i));
+        if (tracker.velocity_m_s().x >= 0.05) half_ms = i;
     }
-    EXPECT_NEAR(most, std::sqrt(0.5), 0.01);
+    EXPECT_LE(half_ms, 16);  // with the calm poles alone 21
 }
 
 TEST(MotionTracker, EncoderCountsHardlyShowInTheVelocity) {
