@@ -116,6 +116,7 @@ void Show::set_quality(const Quality& quality) {
     fluid_ = &next;
     quality_ = quality;
     under_way_.clear();
+    update_ = {};
     handover_.begin();
 }
 
@@ -143,6 +144,9 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     const bool leaps = follows && glm::length(to - from) > fastest_m_s * dt.count();  // guard hand_leap
     if (leaps) ++figures_.placed;
     for (int n = 1; n <= parts; ++n) {
+        if (n > 1)
+            publish(
+                true);  // only a few results are kept under way (gles/readback.h), and all belong to the answer
         time_s_ += part.count();
         states_ = motions_.at(time_s_, part.count());
         if (held) {
@@ -192,6 +196,7 @@ void Show::reset() {
     hand_known_ = false;
     path_.forget();
     held_velocity_m_s_ = glm::dvec3(0.0);
+    update_ = {};
     stored_j_ = 0.0;
     ripple_.reset();
     handover_ = {};
@@ -216,20 +221,20 @@ void Show::publish(bool wait) {
         if (!held) continue;
         // guard force_withheld: the last good force stands, and fades if no other comes (haptic/law.h)
         if (!result->is_sound()) continue;
-        gles::Load load = result->loads[*held];
-        if (step.answers) load = handover_.hand_on(load, step.pose_time);
-        // Over the mean of two steps: what is taken to set the fluid around the body moving comes back when it stops.
-        received_j_ -= glm::dot(load.force_n, 0.5 * (step.velocity_m_s + step.before_m_s)) * step.dt_s;
-        // Of an update's several steps, the last is the answer.
-        if (!step.answers) continue;
+        update_.add(result->loads[*held], step.dt_s, step.velocity_m_s, step.before_m_s);
+        if (!step.answers || update_.seconds() == 0.0) continue;
+        const UpdateAnswer update = std::exchange(update_, {});
+        const gles::Load load = handover_.hand_on(update.load(), step.pose_time);
+        // Over the mean velocity: what is taken to set the fluid around the body moving comes back when it stops.
+        received_j_ -= glm::dot(load.force_n, update.mean_velocity_m_s()) * update.seconds();
         const Instant computed_for = step.pose_time;
         answer_ = {.force_n = load.force_n,
                    .torque_nm = load.torque_nm,
                    .sequence = answer_.sequence + 1,
                    .computed_for = computed_for,
                    .fluid_period = Seconds(figures_.fluid_period_s),
-                   .velocity_m_s = step.velocity_m_s,
-                   .acceleration_m_s2 = (step.velocity_m_s - step.before_m_s) / step.dt_s,
+                   .velocity_m_s = update.velocity_m_s(),
+                   .acceleration_m_s2 = update.acceleration_m_s2(),
                    .received_j = received_j_,
                    .stored_j = stored_j_};
         exchange_.fluid.publish(answer_);

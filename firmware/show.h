@@ -10,6 +10,7 @@
 #include "firmware/haptic/hand_path.h"
 #include "firmware/quality/force_handover.h"
 #include "firmware/quality/quality.h"
+#include "firmware/update_answer.h"
 #include "gles/fluid/fluid.h"
 
 namespace eddy {
@@ -103,13 +104,14 @@ class Show {
     double received_j_ = 0.0;  ///< by the fluid from the held body
     /// A step under way, and how the held body went in it.
     struct UnderWay {
-        bool answers = false;  ///< the last step of an update: its force is the answer
+        bool answers = false;  ///< the last step of an update
         Instant pose_time{0};  ///< of the pose it was given
         double dt_s = 0.0;
         glm::dvec3 velocity_m_s{0.0}, before_m_s{0.0};  ///< in this step, and in the one before
     };
     std::map<long, UnderWay> under_way_;  ///< by the step's number
     glm::dvec3 held_velocity_m_s_{0.0};   ///< in the last step
+    UpdateAnswer update_;                 ///< of the steps that were done of the update under way
     ShowFigures figures_;
     ForceRipple ripple_;
 };

@@ -367,6 +367,29 @@ TEST_F(ShowTest, ASlowFrameIsMadeUpForInStepsAlongTheHandsWay) {
     EXPECT_EQ(exchange.fluid.newest().computed_for, now);
 }
 
+TEST_F(ShowTest, AHandThatSetsOffDuringAStallFeelsTheAddedMassOfIt) {
+    // Without viscosity and from rest, the force of one update is the added mass times the change of velocity, over its time.
+    const auto felt = [this](int stalled) {
+        Show show(gpu, scene_with(""), exchange);
+        Instant now{0};
+        for (int n = 0; n < 5; ++n) {
+            hand_at({0.08, 0.08, 0.08}, now += 20ms);
+            show.update(now, kDt, false);
+            show.publish(true);
+        }
+        const Instant dt = stalled * 20ms;
+        hand_at({0.08 + 0.1 * Seconds(dt).count(), 0.08, 0.08}, now += dt);
+        show.update(now, dt, false);
+        show.publish(true);
+        return exchange.fluid.newest();
+    };
+    const FluidSnapshot usual = felt(1), late = felt(4);
+    EXPECT_NEAR(late.acceleration_m_s2.x, 0.1 / 0.08, 1e-9);
+    EXPECT_NEAR(late.velocity_m_s.x, 0.1, 1e-9);
+    EXPECT_NEAR(late.force_n.x / late.acceleration_m_s2.x, usual.force_n.x / usual.acceleration_m_s2.x,
+                -0.3 * usual.force_n.x / usual.acceleration_m_s2.x);
+}
+
 TEST_F(ShowTest, AMachineThatIsAlwaysSlowTakesOneStepAtATime) {
     Show show(gpu, scene_with(""), exchange);
     for (int n = 1; n <= 10; ++n) {
