@@ -52,11 +52,12 @@ std::string stir_table(const Study& study) {
 
 std::string swing_table(const Study& study) {
     std::string text =
-        "| fluid | law | answers/s | handle | force [N] | way [mm] |\n|---|---|---|---|---|---|\n";
+        "| fluid | law | answers/s | handle | force [N] | way [mm] | of the flow: force [N] | way [mm] |\n"
+        "|---|---|---|---|---|---|---|---|\n";
     for (const SwingRow& row : study.swings)
-        text +=
-            fmt::format("| {} | {} | {:.0f} | {} | {:.3f} | {:.3f} |\n", row.fluid, to_string(row.law),
-                        row.rate_hz, to_string(row.holder), row.swing.force_n, 1e3 * row.swing.position_m);
+        text += fmt::format("| {} | {} | {:.0f} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n", row.fluid,
+                            to_string(row.law), row.rate_hz, to_string(row.holder), row.swing.force_n,
+                            1e3 * row.swing.position_m, row.carried.force_n, 1e3 * row.carried.position_m);
     return text;
 }
 
@@ -142,8 +143,9 @@ and f cycles, the share sinc^2(f / fs) cos^2(pi f / fs). Divided by that, it is 
 What still swings, as half of the largest excursion in the last second: the hand leaps by 20 mm, held by an arm (0.554 kg, 6.45 N s/m,
 135 N/m, with the handle), by one three times as stiff and damped, or lets the handle (0.15 kg, 0.5 N s/m) go at 0.13 m/s, which
 a jet carries to a soft wall at the bounds of the tank. The known
-fluid is here as steep as the gain is limited to. `fixed`: the handle cannot move, so what swings is the flow itself. In a jet
-a handle that nobody holds goes on drifting with the flow, and that counts here as well.
+fluid is here as steep as the gain is limited to. `fixed`: the handle cannot move, so what swings is the flow itself. A flow that
+sheds eddies shakes a handle, which is no limit cycle of the loop: beside each is what the force on the fixed handle, less its mean,
+makes of a handle that is held so.
 
 {}
 ## How strong the force may be
@@ -197,6 +199,8 @@ std::string csv_of(const Study& study) {
         const std::string trial = fmt::format("rest {}", to_string(r.holder));
         line(r.fluid, trial, r.law, r.rate_hz, "force_n", r.swing.force_n);
         line(r.fluid, trial, r.law, r.rate_hz, "position_m", r.swing.position_m);
+        line(r.fluid, trial, r.law, r.rate_hz, "carried_force_n", r.carried.force_n);
+        line(r.fluid, trial, r.law, r.rate_hz, "carried_position_m", r.carried.position_m);
     }
     for (const PullRow& r : study.pulls) line(r.fluid, "pull", ForceLaw::Model, r.rate_hz, "share", r.share);
     return text;

@@ -39,8 +39,8 @@ void study_known(Study& study) {
             }
             for (const Holder holder : {Holder::Arm, Holder::StiffArm, Holder::LetsGo}) {
                 KnownFluid fluid(as_steep_as_allowed(rate_hz));
-                study.swings.push_back(
-                    {kKnown, law, rate_hz, holder, swing_figures(fluid, law, rate_hz, holder)});
+                study.swings.push_back({kKnown, law, rate_hz, holder,
+                                        swing_figures(coming_to_rest(fluid, law, rate_hz, holder))});
             }
         }
     }
@@ -88,12 +88,17 @@ class SceneStudy {
                 }
     }
     void swings() {
-        for (const double rate_hz : kRatesHz)
+        for (const double rate_hz : kRatesHz) {
+            std::vector<Felt> fixed;
             for (const Holder holder : {Holder::Fixed, Holder::Arm, Holder::StiffArm, Holder::LetsGo}) {
-                study_.swings.push_back({name_, ForceLaw::Model, rate_hz, holder,
-                                         swing_figures(*at(rate_hz), ForceLaw::Model, rate_hz, holder)});
+                const std::vector<Felt> ticks =
+                    coming_to_rest(*at(rate_hz), ForceLaw::Model, rate_hz, holder);
+                if (holder == Holder::Fixed) fixed = ticks;
+                study_.swings.push_back({name_, ForceLaw::Model, rate_hz, holder, swing_figures(ticks),
+                                         carried_figures(fixed, holder)});
                 done_((holder == Holder::LetsGo ? 7.0 : 3.9) * rate_hz, "whether the handle comes to rest");
             }
+        }
     }
     void pulls() {
         for (const double rate_hz : kRatesHz) {

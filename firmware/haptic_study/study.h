@@ -39,6 +39,8 @@ struct SwingRow {
     double rate_hz;
     Holder holder;
     Swing swing;
+    Swing
+        carried{};  ///< what the flow by itself would make of it; nothing in the known fluid, which does not flow
 };
 struct PullRow {
     std::string fluid;

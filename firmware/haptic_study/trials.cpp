@@ -99,18 +99,39 @@ StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double
     return f;
 }
 
-Swing swing_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder) {
+std::vector<Felt> coming_to_rest(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder) {
     constexpr Seconds kUntil{1.4};
     const bool goes = holder == Holder::LetsGo;
     // Time to be carried to a wall by whatever flows.
     const Seconds duration(goes ? 7.0 : 3.9);
     Handle handle(holder, goes ? circle(1.0) : stir_then_leap(kUntil));
-    const Play tried = play(fluid, handle,
-                            {.law = law,
-                             .rate_hz = rate_hz,
-                             .duration = duration,
-                             .let_go = goes ? std::optional(kUntil) : std::nullopt});
-    return swing(std::span(tried.ticks).last(1000));
+    return play(fluid, handle,
+                {.law = law,
+                 .rate_hz = rate_hz,
+                 .duration = duration,
+                 .let_go = goes ? std::optional(kUntil) : std::nullopt})
+        .ticks;
+}
+
+Swing swing_figures(std::span<const Felt> ticks) {
+    return swing(ticks.last(1000));
+}
+
+Swing carried_figures(std::span<const Felt> fixed, Holder holder) {
+    const std::span<const Felt> felt = fixed.last(2000);  // half a second after the leap
+    glm::dvec3 mean_n(0.0);
+    for (const Felt& tick : felt) mean_n += tick.force_n / static_cast<double>(felt.size());
+    Handle handle(
+        holder, [](Seconds) { return glm::dvec3(0.0); }, Reading::Exact);
+    if (holder == Holder::LetsGo) handle.let_go();
+    std::vector<Felt> moved;
+    Instant now{0};
+    for (const Felt& tick : felt) {
+        handle.command(tick.force_n - mean_n);
+        handle.poll(now += kTick);
+        moved.push_back({handle.position_m(), tick.force_n});
+    }
+    return swing_figures(moved);
 }
 
 double pull_share(StudyFluid& fluid, double rate_hz) {

@@ -45,8 +45,13 @@ StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double
 /// The mean of what an arm feels over a second in the middle of the tank, as a share of what the fluid gives after gain.
 double pull_share(StudyFluid& fluid, double rate_hz);
 
-/// What swings on, in a second that begins a second and a half after the hand has leapt by 20 mm, or 4.6 s after it has let the handle go
-/// at 0.13 m/s.
-Swing swing_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder);
+/// What the hand does and feels while it comes to rest: it has leapt by 20 mm, two seconds and a half before the end, or let the
+/// handle go at 0.13 m/s, 5.6 s before.
+std::vector<Felt> coming_to_rest(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder);
+/// What of that still swings in its last second.
+Swing swing_figures(std::span<const Felt> ticks);
+/// What the flow by itself makes of a handle held so: the force that a handle felt which cannot move, less its mean, on
+/// one that can. A loop that drives itself swings more than this.
+Swing carried_figures(std::span<const Felt> fixed, Holder holder);
 
 }  // namespace eddy::haptic_study
