@@ -79,7 +79,7 @@ std::optional<ConfigIntake::Objection> ConfigIntake::objection(const ConfigSet& 
     if (set.files.exhibit.none()) {
         const bool had_some = running_ ? report_.source != ConfigSource::Factory
                               : open_  ? open_->source != ConfigSource::Factory
-                                       : last_good_.has_value() || memory_.unreadable() > 0;
+                                       : memory_.had_last_good();
         if (!had_some) return std::nullopt;
         return because(ConfigResult::Refused,
                        "no settings are here any more; for the factory's put an exhibit.toml "

@@ -88,6 +88,7 @@ std::optional<std::string> ConfigMemory::judge() {
 std::optional<ConfigSet> ConfigMemory::last_good(const SceneOrders& orders) {
     if (folder_.empty()) return std::nullopt;
     const auto text = last_good_.read();
+    had_last_good_ = text || last_good_.unreadable() > 0;
     if (!text) return std::nullopt;
     try {
         const Json j = Json::parse(*text);

@@ -31,6 +31,8 @@ class ConfigMemory {
     std::optional<ConfigSet> last_good(const SceneOrders& orders);
     /// The hash of what that returned, or of what was kept since; empty: there is none.
     const std::string& last_good_hash() const { return last_good_hash_; }
+    /// There was one to look at, whatever last_good() could make of it: somebody has set something.
+    bool had_last_good() const { return had_last_good_; }
     void keep_as_last_good(const ConfigSet& set);
 
     void begin_probation(const std::string& hash);
@@ -57,6 +59,7 @@ class ConfigMemory {
     Disk& disk_;
     StateFile last_good_, probation_, black_list_;
     std::string last_good_hash_;
+    bool had_last_good_ = false;
     std::string on_probation_;
     int cuts_ = 0;  ///< that this one has seen while on probation
     struct Death {

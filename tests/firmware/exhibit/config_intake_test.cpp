@@ -542,6 +542,29 @@ TEST_F(Exhibits, StandInForSettingsThatWentWithTheDisk) {
     EXPECT_EQ(answer()["result"], "refused");
 }
 
+TEST_F(Exhibits, StandInForSettingsThatThisVersionTakesNoMore) {
+    scratch_.write("eddy/exhibit.toml", "max_farce_n = 3\n");
+    ConfigSet old = read_config_set(scratch_.path() / "eddy", {});
+    ConfigMemory(scratch_.path() / "state/config", "1", "0.9").keep_as_last_good(old);
+    std::filesystem::remove(scratch_.path() / "eddy/exhibit.toml");
+    start();
+    EXPECT_EQ(answer()["source"], "factory");
+    EXPECT_EQ(answer()["stands_in"], true);
+    EXPECT_EQ(answer()["result"], "refused");
+    EXPECT_EQ(answer()["unreadable_state"], 0);
+}
+
+TEST_F(Exhibits, StandInForNobodyWhenOnlyWhatCondemnsIsDamaged) {
+    std::filesystem::create_directory(scratch_.path() / "state/config");
+    for (const char* file : {"black-list", "probation"}) {
+        scratch_.write(std::string("state/config/") + file, "torn");
+        start();
+        EXPECT_EQ(answer()["stands_in"], false) << file;
+        EXPECT_EQ(answer()["result"], "applied") << file;
+    }
+    EXPECT_EQ(answer()["unreadable_state"], 2);
+}
+
 TEST_F(Exhibits, ReadNothingInSafeMode) {
     write("exhibit.toml", "max_force_n = 3\n");
     safe_mode_ = true;
