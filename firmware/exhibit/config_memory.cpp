@@ -70,10 +70,15 @@ std::optional<std::string> ConfigMemory::judge() {
     try {
         const Json j = Json::parse(*text);
         const std::string hash = j.at("hash"), boot = j.at("boot");
+        // Under another program than this: that proves nothing against this one. Written before programs were told apart: so, too.
+        if (j.value("program", "") != program_) {
+            end_probation();
+            return std::nullopt;
+        }
         on_probation_ = hash;
         cuts_ = j.at("cuts").get<int>() + 1;
         if (boot != boot_ && cuts_ < kMostCuts) {
-            attempt([&] { probation_.write(Json{{"hash", hash}, {"boot", boot_}, {"cuts", cuts_}}.dump()); });
+            write_probation();
             return std::nullopt;
         }
         black_list(hash);
@@ -156,7 +161,12 @@ void ConfigMemory::keep_as_last_good(const ConfigSet& set) {
 void ConfigMemory::begin_probation(const std::string& hash) {
     if (hash != on_probation_) cuts_ = 0;
     on_probation_ = hash;
-    attempt([&] { probation_.write(Json{{"hash", hash}, {"boot", boot_}, {"cuts", cuts_}}.dump()); });
+    write_probation();
+}
+
+void ConfigMemory::write_probation() {
+    const Json j{{"hash", on_probation_}, {"program", program_}, {"boot", boot_}, {"cuts", cuts_}};
+    attempt([&] { probation_.write(j.dump()); });
 }
 
 void ConfigMemory::end_probation() {

@@ -53,6 +53,7 @@ class ConfigMemory {
     template <class Action>
     void attempt(Action action);
     void black_list(const std::string& hash);
+    void write_probation();
 
     std::filesystem::path folder_;
     std::string boot_, program_;

@@ -126,6 +126,26 @@ TEST_F(Memory, ForgivesPowerCutsButNotThreeInARow) {
     EXPECT_EQ(memory("4").judge(), "new");
 }
 
+TEST_F(Memory, CountsTheCutsThatAnotherProgramSawAsNone) {
+    memory("1").begin_probation("new");
+    for (const char* boot : {"2", "3"}) EXPECT_EQ(memory(boot).judge(), std::nullopt);
+    ConfigMemory updated = memory("4", "1.1");
+    EXPECT_EQ(updated.judge(), std::nullopt) << "it never ran them";
+    EXPECT_FALSE(updated.black_listed("new"));
+    updated.begin_probation("new");
+    for (const char* boot : {"5", "6"}) EXPECT_EQ(memory(boot, "1.1").judge(), std::nullopt);
+    EXPECT_EQ(memory("7", "1.1").judge(), "new");
+}
+
+TEST_F(Memory, ReadsAProbationFromBeforeProgramsWereToldApart) {
+    StateFile(scratch_.path() / "state/config/probation").write(R"({"hash":"new","boot":"1","cuts":2})");
+    ConfigMemory updated = memory("2");
+    EXPECT_EQ(updated.judge(), std::nullopt);
+    EXPECT_EQ(updated.unreadable(), 0);
+    EXPECT_EQ(updated.on_probation(), "") << "of another program";
+    EXPECT_EQ(memory("3").judge(), std::nullopt);
+}
+
 TEST_F(Memory, ForgetsAProbationThatEnded) {
     ConfigMemory one = memory();
     one.begin_probation("good");
