@@ -43,12 +43,13 @@ bool StartLedger::write() {
 }
 
 bool StartLedger::gave_up(const std::string& boot, std::int64_t& at_s) const {
-    std::vector<std::int64_t> failures;
+    // Those that asked for the next, too: systemd counts them like failures. They alone are spread out too far for it.
+    std::vector<std::int64_t> counted;
     for (const Start& start : starts_)
-        if (start.boot == boot && start.end == End::None) failures.push_back(start.at_s);
-    if (failures.size() < kBurst) return false;
-    at_s = failures.back();
-    return at_s - failures[failures.size() - kBurst] <= kBurst_s;
+        if (start.boot == boot && start.end != End::Well) counted.push_back(start.at_s);
+    if (counted.size() < kBurst) return false;
+    at_s = counted.back();
+    return at_s - counted[counted.size() - kBurst] <= kBurst_s;
 }
 
 StartLedger::Verdict StartLedger::begin(std::int64_t now_s, const std::string& boot) {

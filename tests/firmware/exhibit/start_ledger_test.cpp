@@ -87,6 +87,25 @@ TEST_F(StartLedgerTest, WhoeverAsksForANewProcessHasNotFailedAndIsNotStartedTooO
         EXPECT_FALSE(start(now += 60, boot).safe) << "nor has the machine";
 }
 
+/// systemd counts every start, whatever the program says of its end.
+TEST_F(StartLedgerTest, FailuresBetweenStartsThatWereAskedForLeadToSafeModeAsWell) {
+    std::int64_t now = kNoon;
+    for (const char* boot : {"a", "b", "c"}) {
+        const std::int64_t first = now;
+        for (const bool asks : {true, false, true, false, false}) {
+            StartLedger ledger(folder_.path());
+            now += ledger.begin(now, boot).wait_s + 1;
+            if (asks) ledger.end_for_restart();
+        }
+        ASSERT_LE(now - first, StartLedger::kBurst_s) << "the next one is refused";
+        now += 30;
+    }
+    const StartLedger::Verdict verdict = start(now, "d");
+    EXPECT_EQ(verdict.before, EndBefore::Failed) << "not a power cut: it gave up";
+    EXPECT_EQ(verdict.restarts, 3);
+    EXPECT_TRUE(verdict.safe);
+}
+
 TEST_F(StartLedgerTest, AnHourLaterAllIsAsUsual) {
     for (const char* boot : {"a", "b", "c"}) give_up(kNoon, boot);
     EXPECT_TRUE(start(kNoon + StartLedger::kHour_s - 60, "d").safe);
