@@ -12,8 +12,8 @@ void Heartbeats::see(Part part, std::uint64_t count, Instant now) {
 }
 
 void Heartbeats::excuse(Instant now) {
-    for (std::optional<Beat>& beat : beats_)
-        if (beat) beat->at = now;
+    for (const Part part : {Part::Render, Part::Haptic, Part::Config})
+        if (std::optional<Beat>& beat = beats_[static_cast<std::size_t>(part)]) beat->at = now;
 }
 
 std::optional<Part> Heartbeats::hanging(Instant now) const {

@@ -33,7 +33,8 @@ class Heartbeats {
     void expect(Part part, Instant now);
     /// Its count as it is now. That of a part that is not expected means nothing.
     void see(Part part, std::uint64_t count, Instant now);
-    /// After work of this thread that had to take long (a scene that is made): nobody else had a chance to be seen.
+    /// After work of this thread that had to take long (a scene that is made): nobody else had a chance to be seen. Button and lamps
+    /// need no excuse, for they end nothing before they are seen again; one that hangs all along would be told of as if it answered.
     void excuse(Instant now);
 
     /// The first part that hangs, if any.

@@ -120,6 +120,19 @@ TEST_F(ServiceTest, MakingASceneTakesAsLongAsItTakes) {
     EXPECT_EQ(service_.heartbeats().hanging(101s), std::nullopt);
 }
 
+TEST_F(ServiceTest, LongWorkExcusesNoPartThatHungBefore) {
+    begin();
+    service_.heartbeats().expect(Part::Gpio, 0s);
+    run(0s, 10s, 10s);
+    ASSERT_EQ(service_.heartbeats().hanging(10s), Part::Gpio);
+    service_.long_work_begins();
+    service_.long_work_ends(100s);
+    EXPECT_EQ(service_.heartbeats().hanging(100s), Part::Gpio) << "it has not answered";
+    EXPECT_FALSE(service_.heartbeats().needs_restart(100s)) << "the others are excused";
+    service_.heartbeats().see(Part::Gpio, 1, 101s);
+    EXPECT_EQ(service_.heartbeats().hanging(101s), std::nullopt);
+}
+
 TEST_F(ServiceTest, LongWorkBegunTwiceIsToldOnce) {
     begin();
     service_.long_work_begins();
