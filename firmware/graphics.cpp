@@ -57,12 +57,14 @@ std::unique_ptr<Graphics> open_display(DisplayChoice choice, const ScreenConfig&
                                        const std::filesystem::path& state_dir) {
     if (choice == DisplayChoice::Headless) return open_headless();
     if (choice == DisplayChoice::Kms) return open_screen(config, state_dir);
+    const bool had_card = card_has_come();
     bool lacks_card = false;
     try {
         return open_screen(config, state_dir);
     } catch (const kms::KmsError& e) {
         fmt::print(stderr, "no screen is used ({}); going on without\n", e.what());
-        lacks_card = !card_has_come();
+        // One that came, or went, in between has not refused: it is looked for again.
+        lacks_card = !had_card || !card_has_come();
     } catch (const gles::GlError& e) {
         fmt::print(stderr, "the screen cannot be drawn on ({}); going on without\n", e.what());
     }
