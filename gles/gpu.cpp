@@ -75,6 +75,7 @@ void Gpu::free_idle_textures() {
 }
 
 void Gpu::pause(Next next) {
+    may_compile_ |= next == Next::Compiling;
     if (!between_ || pauses_) return;
     struct Within {
         explicit Within(bool& flag) : flag_(flag) { flag_ = true; }
@@ -90,7 +91,8 @@ void Gpu::finish() {
         ~Fence() { glDeleteSync(sync); }
     } fence;
     // Without a fence, or with one that does not pass, it is the driver's affair, and that of whoever watches this program.
-    if (!fence.sync || !wait(fence.sync, kPatience)) glFinish();
+    if (!fence.sync || !wait(fence.sync, patience())) glFinish();
+    may_compile_ = false;
 }
 
 bool Gpu::wait(void* fence, std::chrono::nanoseconds patience) {

@@ -78,8 +78,11 @@ class Gpu {
     void on_pause(std::function<void(Next)> between) { between_ = std::move(between); }
     void pause(Next next = Next::Work);
 
-    /// A GPU that has not done in this time what it was asked to is not slow, it hangs.
+    /// A GPU that has not done in this time what it was asked to is not slow, it hangs; but the driver may have had to compile.
     static constexpr std::chrono::seconds kPatience{120};
+    /// The same when nothing was compiled, or drawn for the first time, since the last finish().
+    static constexpr std::chrono::seconds kCompiledPatience{10};
+    std::chrono::seconds patience() const { return may_compile_ ? kPatience : kCompiledPatience; }
     /// Returns when the GPU has done everything it was asked to, with pauses; none any more once it hangs.
     void finish();
     /// Until the fence (a GLsync) has passed, with pauses. False: it has not, in so long, or was lost.
@@ -101,6 +104,7 @@ class Gpu {
     StageWatcher watcher_;
     std::function<void(Next)> between_;
     bool pauses_ = false;
+    bool may_compile_ = false;  ///< since the last finish()
     std::vector<PassRecord>* records_ = nullptr;
 };
 

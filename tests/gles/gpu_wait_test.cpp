@@ -54,6 +54,18 @@ TEST_F(GpuWait, CanBeGivenUp) {
     EXPECT_EQ(pauses, 1);
 }
 
+TEST_F(GpuWait, IsLongOnlyWhereTheDriverMayCompile) {
+    gpu.on_pause({});
+    gpu.finish();
+    EXPECT_EQ(gpu.patience(), std::chrono::seconds(10));
+    gpu.pause();
+    EXPECT_EQ(gpu.patience(), std::chrono::seconds(10));
+    gpu.pause(Next::Compiling);
+    EXPECT_EQ(gpu.patience(), std::chrono::seconds(120));
+    gpu.finish();
+    EXPECT_EQ(gpu.patience(), std::chrono::seconds(10));
+}
+
 TEST_F(GpuWait, OfAReadbackHasThemToo) {
     const TexturePool::Lease texture = gpu.textures().lease({1, 1}, Format::RGBA32F);
     Readback readback(gpu, {1, 1});
