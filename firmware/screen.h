@@ -21,7 +21,7 @@ class Screen {
     /// `memory`: the file that keeps which screen was used last (screen_memory()); empty: none.
     explicit Screen(Graphics& graphics, std::filesystem::path memory = {});
 
-    /// Once each turn of the show's loop, picture or not. Lost: end the program with kExitForRestart.
+    /// Once each turn of the show's loop, picture or not. Moved or Lost: end the program with kExitForRestart.
     DisplayState poll(Instant now);
     /// The GPU was reset: all textures are gone. Everything made with these Graphics must be made anew on open_again(), or the program
     /// ends with kExitForRestart.

@@ -29,7 +29,7 @@ class Front {
     Act& act() { return playbill_->act(); }
     const Act& act() const { return playbill_->act(); }
 
-    /// Once each turn, picture or not. Lost: only a new process can help. Throws gles::GlError if the GPU does not come back.
+    /// Once each turn, picture or not. Moved or Lost: only a new process can help. Throws gles::GlError if the GPU does not come back.
     DisplayState poll(Instant now);
     bool has_screen() const { return screen_->size_px().has_value(); }
     bool wants_picture() const { return screen_->wants_picture(); }

@@ -22,6 +22,7 @@ Event event_of(DisplayState screen) {
         case DisplayState::Showing:
             return Event::ScreenFound;
         case DisplayState::NoMonitor:
+        case DisplayState::Moved:
         case DisplayState::Lost:
             return Event::ScreenLost;
         case DisplayState::Asleep:

@@ -85,8 +85,12 @@ int ExhibitRun::play() {
     return finish();
 }
 
+bool ExhibitRun::ends() const {
+    return asked_to_stop() || lost_ || again_ || shut_down_;
+}
+
 bool ExhibitRun::done() const {
-    if (asked_to_stop() || lost_ || shut_down_) return true;
+    if (ends()) return true;
     return options_.seconds && clock_.now() - show_began_ >= instant(Seconds(*options_.seconds));
 }
 
@@ -168,8 +172,8 @@ void ExhibitRun::open_hand() {
 
 bool ExhibitRun::first_act() {
     const RealClock took;
-    while (!asked_to_stop() && !lost_ && !shut_down_) {
-        if (front_->poll(clock_.now()) == DisplayState::Lost) lost_ = true;
+    while (!ends()) {
+        heed_screen(clock_.now());
         heed_settings();
         const auto news = front_->prepare([this] {
             settings_->heed();
@@ -208,7 +212,7 @@ bool ExhibitRun::prelude(const std::string& what) {
     shine(now);
     start_hand();
     hand_->follow();
-    return usable && !asked_to_stop() && !lost_ && !shut_down_;
+    return usable && !ends();
 }
 
 // ----------------------------------------------------------------------------------------------------- a turn
@@ -218,10 +222,7 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
         alive();
         if (next == gles::Next::Compiling) office_.service().long_work_begins();
     });
-    if (front_->poll(now) == DisplayState::Lost) {
-        lost_ = true;
-        return;
-    }
+    if (!heed_screen(now)) return;
     heed_cards(now);
     const bool plays = front_->plays();
     if (plays && is_open_) front_->act().go_on(now, since_last);
@@ -243,13 +244,20 @@ void ExhibitRun::turn(Instant now, Seconds since_last) {
     office_.service().long_work_ends(clock_.now());
 }
 
+bool ExhibitRun::heed_screen(Instant now) {
+    const DisplayState screen = front_->poll(now);
+    lost_ = screen == DisplayState::Lost;
+    again_ |= screen == DisplayState::Moved;
+    return !lost_ && !again_;
+}
+
 /// Where somebody starts the program again.
 void ExhibitRun::heed_cards(Instant now) {
     if (!front_->graphics().lacks_card || !office_.has_manager() || now < card_due_) return;
     card_due_ = now + kCardEvery;
     if (!card_has_come()) return;
     office_.say(Event::ScreenFound, "a graphics card has come up: the program starts again, with its screen");
-    lost_ = true;
+    again_ = true;
 }
 
 void ExhibitRun::draw(Instant now) {
@@ -325,7 +333,7 @@ void ExhibitRun::heed_panel(Instant now) {
     }
     if (news.factory) {
         leave_word(kFactoryMarker);
-        lost_ = true;
+        again_ = true;
     }
 }
 
@@ -533,7 +541,9 @@ int ExhibitRun::finish() {
     if (hand_) hand_->end();  // with zero force, before anything else is said
     if (hand_) hand_->follow([this](std::span<const TickRecord> ticks) { recording_.add(ticks); });
     if (settings_) settings_->stopped();
-    if (ledger_) lost_ ? ledger_->end_for_restart() : ledger_->end_well();
+    // A screen that stays lost is a failure: five of them start the machine anew, which cures most cards.
+    if (ledger_ && again_) ledger_->end_for_restart();
+    if (ledger_ && !again_ && !lost_) ledger_->end_well();
     const Instant now = clock_.now();
     progress_.finish();
     recording_.finish();
@@ -546,7 +556,7 @@ int ExhibitRun::finish() {
                       front_->graphics(), *hand_, recording_.recorder());
     }
     office_.close();
-    if (lost_) return kExitForRestart;
+    if (lost_ || again_) return kExitForRestart;
     return recording_.failed() ? 1 : 0;
 }
 

@@ -45,6 +45,8 @@ class ExhibitRun {
 
     // --- a turn
     void turn(Instant now, Seconds since_last);
+    /// False: there is no use in going on.
+    bool heed_screen(Instant now);
     void draw(Instant now);
     /// Tells the service manager, once.
     void get_ready(Instant now);
@@ -69,6 +71,8 @@ class ExhibitRun {
     void tell_of_hang(std::optional<Part> part);
     int finish();
 
+    /// Whatever is under way.
+    bool ends() const;
     bool done() const;
     Instant period() const;
     ExhibitFacts facts() const;
@@ -100,7 +104,8 @@ class ExhibitRun {
     Instant hand_began_{0}, show_began_{0};
     bool first_words_ = false, picture_shown_ = false;
     bool first_frame_ = false;  ///< or what stands for it: ready
-    bool lost_ = false;         ///< only a new process can help
+    bool lost_ = false;         ///< the screen, whatever was tried
+    bool again_ = false;        ///< only a new process can help, and nothing has failed
     bool shut_down_ = false;
     bool is_open_ = true;
     Presence presence_ = Presence::Nobody;

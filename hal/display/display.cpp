@@ -10,6 +10,8 @@ const char* to_string(DisplayState state) {
             return "no monitor";
         case DisplayState::Asleep:
             return "asleep";
+        case DisplayState::Moved:
+            return "moved";
         case DisplayState::Lost:
             return "lost";
     }

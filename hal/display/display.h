@@ -18,7 +18,8 @@ enum class DisplayState {
     Showing,    ///< what is drawn is seen
     NoMonitor,  ///< nothing to show it on, now; problem() says why, and it comes back by itself
     Asleep,     ///< told to be dark
-    Lost,       ///< given up: only a new process can help
+    Moved,      ///< the screen is on another card: only a new process can draw there
+    Lost,       ///< given up, whatever was tried: a new process may help, or a new start of the machine
 };
 const char* to_string(DisplayState state);
 

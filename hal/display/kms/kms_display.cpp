@@ -201,14 +201,14 @@ std::string KmsDisplay::describe() const {
 // --------------------------------------------------------------------------------------------- each frame
 
 DisplayState KmsDisplay::state() const {
-    if (lost_) return DisplayState::Lost;
+    if (lost_) return moved_ ? DisplayState::Moved : DisplayState::Lost;
     if (!awake_) return DisplayState::Asleep;
     return window_ && master_ && !waking_ ? DisplayState::Showing : DisplayState::NoMonitor;
 }
 
 DisplayState KmsDisplay::poll(Instant now) {
     now_ = now;
-    if (lost_) return DisplayState::Lost;
+    if (lost_) return state();
     watch_master();
     take_events();
     cure();
@@ -468,6 +468,7 @@ void KmsDisplay::look_at_other_cards() {
         const Machine::Opened other = open(path);
         if (!other.card || !choose_monitor(look_for_monitors(*other.card, true), wish_)) continue;
         // What GL has drawn lies in the memory of this card; the next process begins with that one.
+        moved_ = true;
         give_up(fmt::format("the screen is on {} now, and no longer on {}", path, path_));
         return;
     }

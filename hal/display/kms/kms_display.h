@@ -133,7 +133,7 @@ class KmsDisplay final : public Display {
     Instant sent_{0};  ///< when flying_ was, on the card's clock
 
     Instant now_{0};
-    bool awake_ = true, dark_ = false, master_ = true, lost_ = false;
+    bool awake_ = true, dark_ = false, master_ = true, lost_ = false, moved_ = false;
     bool look_due_ = false, look_probes_ = false;
     Instant master_try_{0}, plugs_poll_{0};
     std::optional<Instant> plugs_settled_;  ///< plugs changed; look into it then

@@ -182,7 +182,9 @@ TEST_F(KmsDisplayTest, AScreenThatMovesToAnotherCardNeedsANewProcess) {
     card(0).plugs[0].connection = Connection::Disconnected;
     card(1).plugs[0].connection = Connection::Connected;
     machine.tell_of_plugs();
-    EXPECT_LE(until(DisplayState::Lost, 5s), 600ms);
+    EXPECT_LE(until(DisplayState::Moved, 5s), 600ms);
+    run(1s);
+    EXPECT_EQ(state, DisplayState::Moved);
     EXPECT_THAT(display->problem(), HasSubstr("/dev/dri/card1"));
     display.reset();
     open();
