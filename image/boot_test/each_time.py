@@ -248,5 +248,7 @@ def stages_of_a_start(e, step, said):
 
 def damaged(bench, m):
     with bench.step("the data partition is overwritten with nonsense: that is said aloud, and there are words on the screen"):
-        m.wait_for("made anew, with the factory's configuration|what a new exhibit has is back", PATIENCE)
+        m.wait_for("made anew, with the factory's configuration and no force|what a new exhibit has is back", PATIENCE)
         until("words on the screen", PATIENCE, lambda: something_drawn(m))
+        if "max_force_n = 0.0" not in (text := m.ask(f"cat {CONFIG}/exhibit.toml")):
+            raise Failed(f"there may be force though nobody knows of a stop input:\n{text}")
