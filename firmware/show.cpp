@@ -34,6 +34,17 @@ gles::Extent held_extent(const Scene& scene, const gles::FluidSetup& fluid) {
     return {glm::dvec3(0.0), glm::dvec3(0.0)};
 }
 
+/// Where the centre of the held body may be.
+gles::Extent room_for_hand(const Scene& scene, const gles::FluidSetup& fluid) {
+    return gles::room_for_centre(held_extent(scene, fluid), scene.tank.size_m,
+                                 kWallGapCells * scene.tank.cell_m());
+}
+
+/// A place on the way from where the hand is, no further out of the room than that.
+glm::dvec3 inside(const gles::Extent& room, const glm::dvec3& hand_m, const glm::dvec3& place_m) {
+    return glm::clamp(place_m, glm::min(room.low, hand_m), glm::max(room.high, hand_m));
+}
+
 /// Of what outputs ask for, nothing is written here; and to measure the force in more ways, each step waits for the GPU.
 gles::FluidSetup shown(const Scene& scene) {
     gles::FluidSetup setup = fluid_setup(scene);
@@ -48,8 +59,7 @@ HapticOrders orders_for(const Scene& scene, const gles::FluidSetup& fluid) {
     orders.enabled = true;
     orders.gain = scene.haptics.gain;
     orders.tank_from_device = {scene.haptics.centre_m, scene.haptics.workspace_scale};
-    const gles::Extent room = gles::room_for_centre(held_extent(scene, fluid), scene.tank.size_m,
-                                                    kWallGapCells * scene.tank.cell_m());
+    const gles::Extent room = room_for_hand(scene, fluid);
     orders.lowest_m = room.low;
     orders.highest_m = room.high;
     return orders;
@@ -65,6 +75,7 @@ Show::Show(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange, const Q
       motions_(scene),
       quality_(quality),
       fluid_(&made(quality_)),
+      room_(room_for_hand(scene, fluid_->setup())),
       states_(motions_.at(0.0, scene.solver.dt_s)),
       gain_(scene.haptics.gain) {}
 
@@ -134,13 +145,13 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     const Seconds part = dt / parts;
     const auto held = motions_.held();
     const glm::dvec3 from = held ? states_[*held].centre_m : glm::dvec3(0.0);
-    const glm::dvec3 hand_m = path_.at(pose, now);
+    const double fastest_m_s = kFastestFollowedMS * scene_.haptics.workspace_scale;
+    const glm::dvec3 hand_m = inside(room_, pose.position_m, path_.at(pose, now, fastest_m_s));
     const glm::dvec3 to = pose.known ? hand_m : from;
     // Of the displacement, not of the handle: what the body pushes away must agree with where it goes. But the
     // first position after a gap (a device that has just come, a stall of the fluid) is where the hand happens
     // to be, not a movement, and neither is a leap that no hand makes: the body is placed there, at rest.
     const bool follows = pose.known && hand_known_ && interval <= 1.5 * dt.count();
-    const double fastest_m_s = kFastestFollowedMS * scene_.haptics.workspace_scale;
     const bool leaps = follows && glm::length(to - from) > fastest_m_s * dt.count();  // guard hand_leap
     if (leaps) ++figures_.placed;
     for (int n = 1; n <= parts; ++n) {

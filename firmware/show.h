@@ -11,6 +11,7 @@
 #include "firmware/quality/force_handover.h"
 #include "firmware/quality/quality.h"
 #include "firmware/update_answer.h"
+#include "gles/body/bounds.h"
 #include "gles/fluid/fluid.h"
 
 namespace eddy {
@@ -93,6 +94,7 @@ class Show {
         fluids_;          ///< all that were asked for: going back is quick
     gles::Fluid* fluid_;  ///< of quality_
     ForceHandover handover_;
+    gles::Extent room_;  ///< where the hand's body may be
     std::vector<gles::BodyState> states_;
     double gain_;
     double time_s_ = 0.0;  // of the fluid; falls behind the clock when steps are too slow and dt is capped

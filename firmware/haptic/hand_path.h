@@ -12,14 +12,15 @@ namespace eddy {
 /// velocity of a tick would bring the flicker of the encoders with it.
 class HandPath {
   public:
-    /// Metres, Tank frame. `now`: the end of the update. A hand that runs into a bound may be a tick's way beyond it, once.
-    glm::dvec3 at(const PoseSnapshot& pose, Instant now) {
+    /// Metres, Tank frame. `now`: the end of the update. A pose that is further from the last than a hand of `fastest_m_s`
+    /// goes is taken as it is. A hand that runs into a bound may be a tick's way beyond it, once.
+    glm::dvec3 at(const PoseSnapshot& pose, Instant now, double fastest_m_s) {
         glm::dvec3 position_m = pose.position_m;
         if (last_ && pose.known && pose.time > last_->time) {
             const glm::dvec3 velocity_m_s =
                 (pose.position_m - last_->position_m) / Seconds(pose.time - last_->time).count();
-            position_m +=
-                std::clamp(Seconds(now - pose.time), Seconds(0.0), kFurthest).count() * velocity_m_s;
+            const double age_s = std::clamp(Seconds(now - pose.time), Seconds(0.0), kFurthest).count();
+            if (glm::length(velocity_m_s) <= fastest_m_s) position_m += age_s * velocity_m_s;
         }
         last_ = pose.known ? std::optional(pose) : std::nullopt;
         return position_m;

@@ -8,9 +8,16 @@ HapticOrders KnownFluid::orders() const {
     return {.enabled = true, .lowest_m = glm::dvec3(-0.05), .highest_m = glm::dvec3(0.05)};
 }
 
+namespace {
+
+/// No hand of the study goes faster.
+constexpr double kFastestM_s = 3.0;
+
+}  // namespace
+
 void KnownFluid::update(Instant now, Seconds dt) {
     const PoseSnapshot& pose = exchange.pose.newest();
-    const glm::dvec3 position_m = path_.at(pose, now);
+    const glm::dvec3 position_m = path_.at(pose, now, kFastestM_s);
     const glm::dvec3 velocity_m_s =
         placed_ && pose.known ? (position_m - position_m_) / dt.count() : glm::dvec3(0.0);
     const glm::dvec3 acceleration_m_s2 = (velocity_m_s - velocity_m_s_) / dt.count();
