@@ -28,13 +28,15 @@ void EnergyMatch::moved_to(const glm::dvec3& position_m, const glm::dvec3& veloc
     tracked_drag_ = kept * tracked_drag_ + glm::dot(velocity_m_s, way_m);
     tracked_added_ = kept * tracked_added_ + glm::dot(acceleration_m_s2, way_m);
     true_drag_ *= kept;
+    began_ *= kept;
     chord_ += dt;
     if (chord_ < kChord) return;
     const glm::dvec3 chord_m = position_m - chord_from_m_;
     const double speed2 = glm::dot(chord_m, chord_m) / (chord_.count() * chord_.count());
+    if (true_drag_ == 0.0) began_ = 0.5 * speed2;
     true_drag_ += speed2 * chord_.count();
-    // With a memory T that fades, the integral of w dw is w^2 / 2 less the integral of w^2 / 2 T.
-    true_added_ = 0.5 * speed2 - 0.5 * true_drag_ / kMemory.count();
+    // With a memory T that fades, the integral of w dw is w^2 / 2 less the integral of w^2 / 2 T, and less what there was.
+    true_added_ = 0.5 * speed2 - 0.5 * true_drag_ / kMemory.count() - began_;
     chord_from_m_ = position_m;
     chord_ = Seconds(0.0);
 }
@@ -44,10 +46,8 @@ EnergyMatch::Shares EnergyMatch::follow(double drag_ns_m, double added_kg, Secon
     const double of_drag = drag_ns_m * (tracked_drag_ + kStill);
     const double of_mass = added_kg * (tracked_added_ - true_added_);
     Shares wanted;
-    if (of_drag + of_mass > may_cost && of_drag > 0.0) {
-        wanted.drag = std::clamp((may_cost - of_mass) / of_drag, 0.0, 1.0);
-        if (of_mass > may_cost) wanted.added = may_cost / of_mass;
-    }
+    if (of_drag > 0.0) wanted.drag = std::clamp((may_cost - of_mass) / of_drag, 0.0, 1.0);
+    if (of_mass > may_cost) wanted.added = may_cost / of_mass;
     const double share = dt.count() > 0.0 ? -std::expm1(-dt / kFollow) : 0.0;
     shares_.drag += share * (wanted.drag - shares_.drag);
     shares_.added += share * (wanted.added - shares_.added);

@@ -10,7 +10,8 @@ namespace eddy {
 /// acceleration is known some 60 ms late (motion_tracker.h), and an added mass that is late is a drag: a hand that stirs
 /// twice a second would pay half as much again, five times a second nearly twice. So books are kept of the last quarter second: of the
 /// work of model drag and model mass on the path that the hand really took, and of what a drag takes on that path,
-/// the integral of b w^2. Where the sum is more, the drag is given up to make room, and the mass if that is not enough.
+/// the integral of b w^2. Where the sum is more, the drag is given up to make room, and the mass if that is not enough: a late mass
+/// without any drag would be nothing but a drag.
 class EnergyMatch {
   public:
     struct Shares {
@@ -36,6 +37,7 @@ class EnergyMatch {
     double tracked_added_ = 0.0;  ///< of tracked acceleration times way: what a model mass of 1 kg took
     double true_drag_ = 0.0;      ///< of velocity squared: what a drag of 1 N s/m would have taken
     double true_added_ = 0.0;  ///< of velocity times acceleration: the kinetic energy of 1 kg, won and lost
+    double began_ = 0.0;       ///< the kinetic energy of 1 kg with which the books began, fading as they do
     /// Velocities are those of chords: long enough that the steps of encoders are nothing to them.
     glm::dvec3 chord_from_m_{0.0};
     Seconds chord_{0.0};

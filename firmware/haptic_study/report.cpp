@@ -112,8 +112,8 @@ std::string report_of(const Study& study, const StudyOrder& order, const std::st
 A fluid answers twenty to seventy-five times a second, each answer a frame late; the hand must get a force a thousand times a second.
 Two laws make one of the other: `force = "filter"`, the low-pass and the limit on impulses of Yang et al. 2009, and `force = "model"`,
 which finds in the fluid's own answers how the force follows the body's velocity and acceleration, gives that part at once from the hand's own
-motion, low-passes only the rest, and keeps books of the energy (firmware/haptic/hand_force.h). An exhibit has the model unless its
-exhibit.toml says otherwise.
+motion, low-passes only the rest, and keeps books of the energy (firmware/haptic/hand_force.h): stirring costs what the drag found takes, and
+no more. An exhibit has the model unless its exhibit.toml says otherwise.
 
 Everything here was measured by `eddy haptics` on virtual time, with a simulated handle whose encoders count and whose motors are
 felt; `script/report haptics` makes the page anew. The fluid `known` is a drag of {:g} N s/m and an added mass of {:g} kg in the hand, exactly.

@@ -55,6 +55,23 @@ TEST(EnergyMatch, WithoutItFastStirringWouldCostHalfAsMuchAgain) {
     EXPECT_GT(Matched(circling(2.0), 6000).unmatched_j, 1.4 * Matched(circling(2.0), 6000).drag_j);
 }
 
+TEST(EnergyMatch, NoDragIsTheLimitOfALittle) {
+    const auto shares = [](double drag_ns_m) {
+        MotionTracker tracker;
+        EnergyMatch match;
+        EnergyMatch::Shares found;
+        for (int i = 0; i < 3000; ++i) {
+            const glm::dvec3 here_m = circling(2.0)(1e-3 * i);
+            tracker.take(here_m, std::chrono::milliseconds(i));
+            match.moved_to(here_m, tracker.velocity_m_s(), tracker.acceleration_m_s2(), kMs);
+            found = match.follow(drag_ns_m, kModelMass, kMs);
+        }
+        return found;
+    };
+    EXPECT_NEAR(shares(0.0).added, shares(1e-9).added, 1e-6);
+    EXPECT_LT(shares(0.0).added, 0.01);
+}
+
 TEST(EnergyMatch, AHandThatGoesStraightGetsTheWholeModel) {
     const Matched hand([](double t) { return glm::dvec3(0.05 * t, 0.0, 0.0); }, 4000);
     EXPECT_GT(hand.shares.drag, 0.999);
