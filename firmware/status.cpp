@@ -103,6 +103,8 @@ bool write_status(const std::filesystem::path& file, const Status& s) {
                     {"gain_changes", s.gain.changes},
                     {"model_drag_ns_m", s.loop.force.drag_ns_m},
                     {"model_added_kg", s.loop.force.added_kg},
+                    {"model_drag_share", s.loop.force.drag_share},
+                    {"model_added_share", s.loop.force.added_share},
                     {"model_explains", s.loop.force.explained},
                     {"energy_debt_j", -s.loop.force.least_j},
                     {"energy_damped", s.loop.force.damped},

@@ -13,6 +13,8 @@ enum class ForceLaw {
 struct ForceReport {
     double drag_ns_m = 0.0;  ///< slopes in use, at the handle, after gain
     double added_kg = 0.0;
+    double drag_share = 1.0;  ///< of these, what the hand is given (energy_match.h)
+    double added_share = 1.0;
     double explained = 0.0;    ///< part of the force's changes that these account for
     double least_j = 0.0;      ///< the deepest debt since start
     std::uint64_t damped = 0;  ///< ticks with damping

@@ -42,6 +42,8 @@ glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const H
     passivity_.given(force_n, damping_n);
     report_ = {.drag_ns_m = gain * scale * model_.drag_ns_m(),
                .added_kg = gain * scale * model_.added_kg(),
+               .drag_share = shares.drag,
+               .added_share = shares.added,
                .explained = model_.explained(),
                .least_j = passivity_.least_j(),
                .damped = passivity_.damped()};
