@@ -49,5 +49,23 @@ TEST(Documents, PicturesAreAllShownSomewhere) {
         }
 }
 
+/// tests/stability/mutations takes the text out of the file; what it does not find, or finds twice, proves nothing.
+TEST(Documents, EveryGuardThatIsTakenOutInTurnIsThereOnce) {
+    std::istringstream list(text_of(kRoot / "tests/stability/mutations.list"));
+    int guards = 0;
+    for (std::string line; std::getline(list, line);) {
+        if (line.empty() || line.front() == '#') continue;
+        std::istringstream fields(line);
+        std::string name, file, guard;
+        std::getline(std::getline(std::getline(fields, name, '\t'), file, '\t'), guard, '\t');
+        const std::string text = text_of(kRoot / file);
+        const std::size_t at = text.find(guard);
+        ASSERT_NE(at, std::string::npos) << name << ": not in " << file;
+        EXPECT_EQ(text.find(guard, at + 1), std::string::npos) << name << ": more than once in " << file;
+        ++guards;
+    }
+    EXPECT_GT(guards, 40);  // or this looks for the wrong thing
+}
+
 }  // namespace
 }  // namespace eddy

@@ -49,7 +49,11 @@ void HealthCheck::draw(const State& state, const Sound& sound, const Texture& ro
     }
     if (state.smoke) inputs.push_back({"smoke", &state.smoke->texture()});
     if (state.temperature) inputs.push_back({"temperature", &state.temperature->texture()});
-    count_.draw(inputs, {{"fastest", sound.fastest_m_s}, {"most_phi", sound.most_phi}}, row, to_);
+    count_.draw(inputs,
+                {{"fastest", sound.fastest_m_s},
+                 {"most_diffused", sound.most_diffused_m_s},
+                 {"most_phi", sound.most_phi}},
+                row, to_);
 }
 
 }  // namespace eddy::gles

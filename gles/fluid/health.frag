@@ -17,6 +17,7 @@ uniform float fastest, most_phi;
 #endif
 #ifdef DIFFUSED
 uniform sampler2D diffused;
+uniform float most_diffused;
 #endif
 #ifdef SMOKE
 uniform sampler2D smoke;
@@ -62,7 +63,7 @@ void main() {
     if (c.z % PHI_LAYERS == 0) result.y += unsound_texels(phi, PHI, ivec3(c.xy, c.z / PHI_LAYERS), most_phi);
 #endif
 #ifdef DIFFUSED
-    result.x += unsound_texels(diffused, VELOCITY, c, fastest);
+    result.x += unsound_texels(diffused, VELOCITY, c, most_diffused);
 #endif
 #ifdef SMOKE
     result.z += unsound_texels(smoke, SCALARS, c, kMostScalar);

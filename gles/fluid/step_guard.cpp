@@ -82,11 +82,13 @@ Sound sound(const FluidSetup& setup, double dt_s) {
     const double fastest = kFluidLengths * longest_side_m(setup) / dt_s;
     // That of a flow that crosses the tank in a step and is stopped in it, p = rho (L / dt)^2, times 1 + nu dt / h^2 where it is
     // friction that stops it; of a weight that is held; and eight times that.
-    const double crosses =
-        longest_side_m(setup) / dt_s * (1.0 + static_cast<double>(diffusion_number(setup, dt_s)));
+    const double stiff = 1.0 + static_cast<double>(diffusion_number(setup, dt_s));
+    const double crosses = longest_side_m(setup) / dt_s * stiff;
     const double falls = dt_s * glm::length(setup.gravity_m_s2);
     const double most = 8.0 * (crosses + falls) * longest_side_m(setup) / setup.cell_m;
-    return {static_cast<float>(std::min(fastest, kMostPhi)), static_cast<float>(std::min(most, kMostPhi))};
+    return {static_cast<float>(std::min(fastest, kMostPhi)),
+            static_cast<float>(std::min(fastest * stiff, kMostPhi)),
+            static_cast<float>(std::min(most, kMostPhi))};
 }
 
 double fastest_body_m_s(const FluidSetup& setup, double dt_s) {

@@ -9,7 +9,7 @@
 #include "viscous.glsl"
 #ifdef GUESS
 #include "guard.glsl"
-uniform float fastest;
+uniform float most;
 #endif
 
 uniform sampler2D velocity, rhs;
@@ -26,8 +26,8 @@ void main() {
     u = vec3(0.0);
 #endif
 #ifdef GUESS
-    u = sound(u, fastest);  // guard diffused
-    term = sound(term, 1e3 * fastest);  // as if around it all were as on the face itself
+    u = sound(u, most);  // guard diffused
+    term = sound(term, 1e3 * most);  // as if around it all were as on the face itself
 #endif
     vec3 r = at(rhs, FACES, c).xyz;
     vec3 next = u + omega * (share * (r - u) + lambda * term) / max(share + lambda * weights, 1e-20);

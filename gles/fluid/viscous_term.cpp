@@ -76,20 +76,20 @@ void ViscousTerm::draw(Split& pass, std::size_t l, std::vector<Input> inputs, st
     pass.cut->draw(inputs, uniforms, {&out}, Region(grip_->boxes(l)));
 }
 
-Field<Faces> ViscousTerm::smooth(std::size_t l, const Field<Faces>* u, std::optional<float> fastest_m_s,
+Field<Faces> ViscousTerm::smooth(std::size_t l, const Field<Faces>* u, std::optional<float> most_m_s,
                                  const Field<Faces>& rhs, float omega, const Equation& equation) {
     Level& level = levels_[l];
     Field<Faces> next(*gpu_, level.cells, Format::RGBA32F);
-    Split& sweep = fastest_m_s ? *level.guess_smooth : u ? *level.smooth : *level.first_smooth;
+    Split& sweep = most_m_s ? *level.guess_smooth : u ? *level.smooth : *level.first_smooth;
     std::vector<Uniform> uniforms{{"omega", omega}};
-    if (fastest_m_s) uniforms.push_back({"fastest", *fastest_m_s});
+    if (most_m_s) uniforms.push_back({"most", *most_m_s});
     std::vector<Input> inputs{{"rhs", &rhs.texture()}};
     if (u) inputs.push_back({"velocity", &u->texture()});
     draw(sweep, l, inputs, uniforms, equation, next.texture());
     return next;
 }
 
-Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, std::optional<float> fastest_m_s,
+Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, std::optional<float> most_m_s,
                                 const Field<Faces>& rhs, const Equation& equation) {
     Level& level = levels_[l];
     const bool coarsest = l + 1 == equation.levels;
@@ -97,7 +97,7 @@ Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, std::o
     // Before and after the coarser grids: what they cannot hold. On the coarsest: everything.
     const std::vector<float> omegas =
         coarsest ? diffusion_weights(kCoarsestSweeps, lambda, 0.1) : diffusion_weights(2, lambda, 1.0 / 3.0);
-    Field<Faces> u = smooth(l, guess, fastest_m_s, rhs, omegas[0], equation);
+    Field<Faces> u = smooth(l, guess, most_m_s, rhs, omegas[0], equation);
     for (std::size_t i = 1; i < omegas.size(); ++i) u = smooth(l, &u, std::nullopt, rhs, omegas[i], equation);
     if (coarsest) return u;
 
@@ -116,11 +116,11 @@ Field<Faces> ViscousTerm::cycle(std::size_t l, const Field<Faces>* guess, std::o
     return u;
 }
 
-Field<Faces> ViscousTerm::diffuse(const Field<Faces>& guess, float fastest_m_s, const Field<Faces>& u_star,
+Field<Faces> ViscousTerm::diffuse(const Field<Faces>& guess, float most_m_s, const Field<Faces>& u_star,
                                   double dt_s, int cycles, const Uniform& wall_time) {
     Equation equation{diffusion_number(*setup_, dt_s), 1, {wall_time}};
     while (equation.levels < levels_.size() && equation.on(equation.levels) > kLeastLambda) ++equation.levels;
-    Field<Faces> u = cycle(0, &guess, fastest_m_s, u_star, equation);
+    Field<Faces> u = cycle(0, &guess, most_m_s, u_star, equation);
     for (int i = 1; i < cycles; ++i) u = cycle(0, &u, std::nullopt, u_star, equation);
     return u;
 }

@@ -21,10 +21,10 @@ class ViscousTerm {
 
     /// Draws where the bodies hold the fluid now; `boxes` hold each body and two cells around it.
     void place(const BodyUniforms& bodies, const std::vector<Box>& boxes, const FaceFractions& fractions);
-    /// u after `cycles` V-cycles from a guess, which is none where it is faster than `fastest_m_s`; u* also holds the
+    /// u after `cycles` V-cycles from a guess, which is none where it is faster than `most_m_s`; u* also holds the
     /// velocities on walls and in bodies.
-    Field<Faces> diffuse(const Field<Faces>& guess, float fastest_m_s, const Field<Faces>& u_star,
-                         double dt_s, int cycles, const Uniform& wall_time);
+    Field<Faces> diffuse(const Field<Faces>& guess, float most_m_s, const Field<Faces>& u_star, double dt_s,
+                         int cycles, const Uniform& wall_time);
     /// Where the bodies hold the fluid; null without bodies.
     const Grip* grip() const { return grip_ ? &*grip_ : nullptr; }
 
@@ -51,10 +51,10 @@ class ViscousTerm {
                const Walls& walls) const;
     void draw(Split& pass, std::size_t l, std::vector<Input> inputs, std::vector<Uniform> uniforms,
               const Equation& equation, const Texture& out);
-    /// One sweep; u null: from zero; `fastest_m_s` if u is a guess.
-    Field<Faces> smooth(std::size_t l, const Field<Faces>* u, std::optional<float> fastest_m_s,
+    /// One sweep; u null: from zero; `most_m_s` if u is a guess.
+    Field<Faces> smooth(std::size_t l, const Field<Faces>* u, std::optional<float> most_m_s,
                         const Field<Faces>& rhs, float omega, const Equation& equation);
-    Field<Faces> cycle(std::size_t l, const Field<Faces>* u, std::optional<float> fastest_m_s,
+    Field<Faces> cycle(std::size_t l, const Field<Faces>* u, std::optional<float> most_m_s,
                        const Field<Faces>& rhs, const Equation& equation);
 
     Gpu* gpu_;
