@@ -24,7 +24,8 @@ void add_stability(CLI::App& app, StabilityOptions& stability) {
                      "only these: names or numbers, as 4,piston; two at once: stall+cup")
         ->delimiter(',')
         ->take_all();
-    verb->add_option("--grid", stability.grids, "on these grids, as 8,25 or 33x47x29 [8,25]")
+    verb->add_option("--grid", stability.grids,
+                     "on these grids, as 8,25 or 33x47x29 [8,25]; with --full, of its grids these")
         ->delimiter(',')
         ->take_all();
     auto* shard = verb->add_option("--shard", stability.shard,

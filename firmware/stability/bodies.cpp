@@ -118,11 +118,13 @@ std::vector<Case> body_cases() {
                              ball.velocity_m_s = {0.5, 0.0, 0.0};
                              ball.spin_rad_s = {0.0, 50.0, 0.0};
                          }));
-    cases.push_back(liar("motion-not-said", "the ball swings and is said to stand still",
+    cases.push_back(liar("motion-not-said", "the ball swings in a stream and is said to stand still",
                          [](const Moment& m, gles::BodyState& ball) {
                              ball.centre_m.x +=
                                  0.2 * shortest_side_m(*m.scene) * std::sin(2.0 * kPi * m.time_s);
                          }));
+    cases.back().change = [](Scene& s) { stream_through(s, vector_of({0.1, 0.0, 0.0})); };
+    cases.back().calm_share = 0.0;
     return cases;
 }
 

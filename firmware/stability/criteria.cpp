@@ -100,10 +100,10 @@ Criterion energy_never_rises() {
 Criterion speed_never_rises() {
     return [](const History& history) -> Complaint {
         for (const History::Look& look : history.looks)
-            if (look.speed_m_s > 1.001 * history.looks.front().speed_m_s)
+            if (look.speed_m_s > 1.001 * history.start_speed_m_s)
                 return fmt::format(
-                    "by step {} the largest speed is {:.4g} m/s, after the first it was {:.4g} m/s",
-                    look.step + 1, look.speed_m_s, history.looks.front().speed_m_s);
+                    "by step {} the largest speed is {:.4g} m/s, at the start it was {:.4g} m/s",
+                    look.step + 1, look.speed_m_s, history.start_speed_m_s);
         return {};
     };
 }

@@ -223,6 +223,23 @@ Remark remark_on_balance() {
     };
 }
 
+Criterion is_forgotten(std::size_t at, std::size_t within) {
+    return [=](const History& history) -> Complaint {
+        const auto largest_n = [&](std::size_t from, std::size_t to) {
+            double most = 0.0;
+            for (std::size_t n = from; n < std::min({to, history.common_n.size(), history.steps.size()}); ++n)
+                if (!history.steps[n].loads.empty())
+                    most =
+                        std::max(most, glm::length(history.steps[n].loads[0].force_n - history.common_n[n]));
+            return most;
+        };
+        const double first = largest_n(at, at + within), later = largest_n(at + within, history.steps.size());
+        if (later <= 0.1 * first) return {};
+        return fmt::format("the fault changes the force by {:.2g} N, and {} steps later still by {:.2g} N",
+                           first, within, later);
+    };
+}
+
 Criterion same_as_common(double factor, double share) {
     return [=](const History& history) -> Complaint {
         const Difference worst = from_common(history, factor);

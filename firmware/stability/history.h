@@ -36,7 +36,7 @@ struct History {
     };
     Tank tank;
     double gravity_m_s2 = 0.0;
-    double start_energy_j = 0.0;
+    double start_energy_j = 0.0, start_speed_m_s = 0.0;
     long planned_steps = 0;  ///< it may have been cut short
     std::vector<Step> steps = {};
     std::vector<Look> looks = {};

@@ -72,24 +72,27 @@ bool is_quick_pair(const std::vector<const Case*>& row) {
     return std::find(std::begin(kQuickPairs), std::end(kQuickPairs), name) != std::end(kQuickPairs);
 }
 
-std::vector<glm::ivec3> grids_for(const std::vector<const Case*>& row, const Order& order) {
-    std::vector<glm::ivec3> grids;
-    for (const std::string& name : order.grids) grids.push_back(grid_named(name));
-    if (row.size() == 1 && !row.front()->grids.empty()) {
-        std::vector<glm::ivec3> own = row.front()->grids;
-        if (!grids.empty())
-            std::erase_if(own, [&](const glm::ivec3& n) {
-                return std::find(grids.begin(), grids.end(), n) == grids.end();
-            });
-        return own;
-    }
-    if (!grids.empty()) return grids;
-    if (row.size() > 1 && order.extent != Extent::Quick && is_quick_pair(row))
+std::vector<glm::ivec3> usual_grids(const std::vector<const Case*>& row, Extent extent) {
+    if (row.size() > 1 && extent != Extent::Quick && is_quick_pair(row))
         return {glm::ivec3(8), glm::ivec3(25)};
     if (row.size() > 1) return {glm::ivec3(25)};
-    if (order.extent == Extent::Quick) return {glm::ivec3(8)};
-    if (order.extent == Extent::Usual || row.front()->small_only) return {glm::ivec3(8), glm::ivec3(25)};
+    if (extent == Extent::Quick) return {glm::ivec3(8)};
+    if (extent == Extent::Usual || row.front()->small_only) return {glm::ivec3(8), glm::ivec3(25)};
     return {glm::ivec3(8), glm::ivec3(25), glm::ivec3(33, 47, 29), glm::ivec3(64)};
+}
+
+std::vector<glm::ivec3> grids_for(const std::vector<const Case*>& row, const Order& order) {
+    std::vector<glm::ivec3> wanted;
+    for (const std::string& name : order.grids) wanted.push_back(grid_named(name));
+    const bool has_its_own = row.size() == 1 && !row.front()->grids.empty();
+    // Of the full matrix --grid selects; else it is what the user wants, but for a case about grids.
+    if (!wanted.empty() && order.extent != Extent::Full && !has_its_own) return wanted;
+    std::vector<glm::ivec3> grids = has_its_own ? row.front()->grids : usual_grids(row, order.extent);
+    if (!wanted.empty())
+        std::erase_if(grids, [&](const glm::ivec3& n) {
+            return std::find(wanted.begin(), wanted.end(), n) == wanted.end();
+        });
+    return grids;
 }
 
 long most_steps(const std::vector<const Case*>& row, Extent extent) {
@@ -197,7 +200,8 @@ std::vector<std::size_t> telling_first(std::span<const Cell> cells, std::span<co
         if (!result.outcome.verdict.pass) red.insert(result.name);
     const auto rank = [&](std::size_t i) {
         const glm::ivec3& n = cells[i].trial.cells;
-        return std::tuple(n.x * n.y * n.z, n.x, n.y, cells[i].cases.size(), !red.contains(cells[i].name()));
+        return std::tuple(cells[i].cases.size(), n.x * n.y * n.z, n.x, n.y, !red.contains(cells[i].name()),
+                          cells[i].trial.effort);
     };
     std::vector<std::size_t> order(cells.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -49,7 +49,7 @@ Result result_of(const Cell& cell, const Outcome& outcome);
 /// The result that counts for a cell, or none.
 const Result* find(std::span<const Result> results, const Cell& cell);
 
-/// In which order cells are best tried, as indices: small grids first, on each single cases before pairs, and of these those first
+/// In which order cells are best tried, as indices: single cases before pairs, of these small grids first, and on each those first
 /// that were red on a smaller grid, or before.
 std::vector<std::size_t> telling_first(std::span<const Cell> cells, std::span<const Result> known);
 

@@ -116,10 +116,13 @@ std::vector<Case> number_cases() {
          .name = "checkerboard-pressure",
          .title = "the pressure changes its sign from cell to cell after ten steps, while the ball stirs",
          .provokes = "a mode that sweeps do not see, kept by the warm start",
+         .wants = "40 steps later the force differs from that without it by a tenth of what it did",
          .script =
              [](Moment& m) {
                  if (m.step == 10) m.faults = {{Fault::Place::Pressure, 0.1f, Fault::Extent::Checkerboard}};
              },
+         .complaint = is_forgotten(10, 40),
+         .compares = true,
          .puts_faults = true,
          .pardon_steps = 5});
     for (const glm::ivec3& cells : {glm::ivec3(8), glm::ivec3(9), glm::ivec3(25), glm::ivec3(31)})

@@ -32,8 +32,8 @@ class Steps final : public Rig {
         }
         if (change_) change_(moment, bodies);
         fluid_->step(moment.dt_s, bodies, false);
-        if (const auto result = fluid_->result(true); result && !result->loads.empty())
-            loads_ = result->loads;
+        const gles::StepResult result = fluid_->wait_result();
+        if (!result.loads.empty()) loads_ = result.loads;
         if (moment.holds_answer || loads_.empty()) return;
         answer_.force_n = loads_[motions_.held().value_or(0)].force_n;
         answer_.computed_for = now;
@@ -43,6 +43,7 @@ class Steps final : public Rig {
     std::vector<gles::Load> loads() override { return loads_; }
     FluidSnapshot answer() override { return answer_; }
     const gles::Fluid& fluid() const override { return *fluid_; }
+    gles::GuardCounts guards() const override { return fluid_->guards(); }
     void reset() override {
         fluid_->reset();
         at_m_.reset();
@@ -79,6 +80,7 @@ class Exhibit final : public Rig {
     }
     FluidSnapshot answer() override { return exchange_.fluid.newest(); }
     const gles::Fluid& fluid() const override { return show_.fluid(); }
+    gles::GuardCounts guards() const override { return show_.guards(); }
     void reset() override { show_.reset(); }
     void change_preset() override {
         quality_ = with_preset(

@@ -19,6 +19,8 @@ class Rig {
     /// What the hand may know.
     virtual FluidSnapshot answer() = 0;
     virtual const gles::Fluid& fluid() const = 0;
+    /// Of all fluids that there were.
+    virtual gles::GuardCounts guards() const = 0;
     virtual void reset() = 0;
     virtual void change_preset() {}
 };

@@ -7,7 +7,8 @@
 namespace eddy::stability {
 
 // The one rule by which a hard case passes. It looks at what the solver left in its textures and at what the hand was
-// given, never at what the solver says of itself. Its terms:
+// given. What the solver says of itself is never an excuse; that it found fault with itself between two looks is one more.
+// Its terms:
 //   finite   no texel of velocity, pressure, smoke or temperature, no force and no torque is nan or infinite
 //   speed    max |u| <= 5 times the fastest thing that moves the fluid: a body, jet, wall, or buoyancy, as sqrt(g' L);
 //            times how much a gap narrows the flow, where continuity makes it faster

@@ -11,6 +11,7 @@
 #include "firmware/stability/ledger.h"
 #include "firmware/stability/rig.h"
 #include "firmware/stability/transport_watch.h"
+#include "gles/fluid/step_guard.h"
 
 namespace eddy::stability {
 namespace {
@@ -75,7 +76,7 @@ class Run {
           mixture_(std::move(mixture)),
           setup_(setup_of(cases, mixture_.scene)),
           gate_{.max_force_n = mixture_.scene.haptics.max_force_n},
-          rule_(tank_of(setup_), {gate_.max_force_n, gate_.slew_n_per_s}),
+          rule_(tank_of(setup_), {.most_n = gate_.max_force_n}),
           between_looks_(mixture_.looks_always ? 1 : steps_between_looks(trial.cells, mixture_.steps)),
           ledger_(mixture_.scene, setup_, mixture_.narrowing,
                   between_looks_ == 1 ? Ledger::Inflow::Seen : Ledger::Inflow::Estimated),
@@ -95,6 +96,7 @@ class Run {
         calm_from_s_ = dt_s * static_cast<double>(mixture_.steps) * (1.0 - mixture_.calm_share);
         const Fields start = download(rig_->fluid());
         history_.start_energy_j = kinetic_energy_j(history_.tank, start);
+        history_.start_speed_m_s = largest_speed_m_s(history_.tank, start);
         rule_.begin(start);
     }
 
@@ -116,6 +118,8 @@ class Run {
     void prepare(const Moment& moment);
     std::vector<gles::Load> loads() const;
     void judge_transport();
+    void judge_own_check(const Moment& moment);
+    void judge_life();
     void look(const Moment& moment);
     /// What it wants besides the rule, and has to say; of two at once nothing can be asked.
     const Case& alone() const {
@@ -137,7 +141,7 @@ class Run {
     std::optional<Faults> faults_;
     std::optional<TransportWatch> transport_;
     History history_;
-    long step_ = 0, resets_ = 0, pardoned_until_ = 0;
+    long step_ = 0, resets_ = 0, pardoned_until_ = 0, unsound_ = 0;
     double time_s_ = 0.0, fluid_s_ = 0.0, calm_from_s_ = 0.0, unseen_s_ = 0.0;
 };
 
@@ -173,6 +177,31 @@ void Run::judge_transport() {
                                 beyond));
 }
 
+/// What the fluid says of itself after each step: between two looks a texel may fall ill and be healed.
+void Run::judge_own_check(const Moment& moment) {
+    const long before = std::exchange(unsound_, rig_->guards().unsound_steps);
+    // What a step left comes back with the next where a hand waits for no answer.
+    if (unsound_ == before || moment.change_preset || step_ <= pardoned_until_ + 1) return;
+    // A scene may ask for more than any flow may be given: then nothing else is to be expected.
+    if (ledger_.justified().speed_m_s > gles::sound(setup_, mixture_.scene.solver.dt_s).fastest_m_s) return;
+    rule_.blame(step_ + 1, "by its own check the fluid held a texel, or gave a load, that cannot be");
+}
+
+/// A fluid that does nothing, and a force that is none, keep every rule.
+void Run::judge_life() {
+    double way_m = 0.0, force_n = 0.0, energy_j = 0.0;
+    bool felt = false;
+    for (const History::Step& step : history_.steps) {
+        felt |= !step.loads.empty();
+        for (const gles::Load& load : step.loads) force_n = std::max(force_n, glm::length(load.force_n));
+        for (const gles::BodyState& body : step.bodies) way_m += glm::length(body.velocity_m_s) * step.dt_s;
+    }
+    for (const History::Look& look : history_.looks) energy_j = std::max(energy_j, look.energy_j);
+    if (!(way_m > history_.tank.cell_m)) return;
+    if (!(energy_j > 0.0)) rule_.blame(step_, "bodies moved and the fluid never did");
+    if (felt && !(force_n > 0.0)) rule_.blame(step_, "bodies moved and felt nothing");
+}
+
 std::vector<gles::Load> Run::loads() const {
     std::vector<gles::Load> loads = rig_->loads();
     for (std::size_t i = 0; i < std::min(loads.size(), at_rest_.size()); ++i)
@@ -201,6 +230,7 @@ void Run::step() {
     const std::vector<gles::Load>& felt = history_.steps.back().loads;
     // With a hand only its own load comes back: what other bodies do is then counted by their speed.
     ledger_.add(fluid_s_, passed_s, bodies, felt.size() == bodies.size() ? felt : std::vector<gles::Load>());
+    judge_own_check(moment);
     look(moment);
     ++step_;
 }
@@ -227,6 +257,7 @@ void Run::look(const Moment& moment) {
 }
 
 Outcome Run::outcome() {
+    if (step_ == mixture_.steps) judge_life();
     Outcome outcome{step_, rule_.verdict()};
     if (step_ < mixture_.steps) return outcome;  // a criterion is about what happened to the end
     if (outcome.verdict.pass && alone().complaint)

@@ -83,11 +83,14 @@ std::vector<Result> try_all(gles::Gpu& gpu, const std::vector<Cell>& cells, cons
     Progress progress("stability");
     while (!left.empty()) {
         const std::vector<std::size_t> order = telling_first(left, results);
-        const glm::ivec3 grid = left[order.front()].trial.cells;
+        const Cell first = left[order.front()];
+        const auto goes_with_first = [&](const Cell& cell) {
+            return cell.trial.cells == first.trial.cells && cell.cases.size() == first.cases.size();
+        };
         for (const std::size_t i : order) {
             const Cell& cell = left[i];
-            if (cell.trial.cells != grid) break;
-            progress.show(done_s, total_s, fmt::format("{} on {}", cell.name(), grid_name(grid)));
+            if (!goes_with_first(cell)) break;
+            progress.show(done_s, total_s, fmt::format("{} on {}", cell.name(), grid_name(first.trial.cells)));
             results.push_back(result_of(cell, try_out(gpu, cell.cases, cell.trial, cell.most_steps)));
             done_s += estimate.seconds(cell);
             progress.finish();
@@ -95,7 +98,7 @@ std::vector<Result> try_all(gles::Gpu& gpu, const std::vector<Cell>& cells, cons
             std::fflush(stdout);
             on_result(results);
         }
-        std::erase_if(left, [&](const Cell& cell) { return cell.trial.cells == grid; });
+        std::erase_if(left, goes_with_first);
     }
     return merged(cells, std::array{results});
 }
@@ -114,9 +117,11 @@ int test_stability(const StabilityOptions& options) {
     if (!options.out.empty()) prepare_folder("--out", options.out);
     std::vector<Result> before;
     if (options.resume && fs::exists(fs::path(options.out) / kCsv)) before = results_in(options.out);
+    // Dealt out among those that take equally long.
+    const std::vector<std::size_t> dealt = telling_first(all, {});
     std::vector<Cell> cells;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (shard.holds(i)) cells.push_back(all[i]);
+    for (std::size_t i = 0; i < dealt.size(); ++i)
+        if (shard.holds(i)) cells.push_back(all[dealt[i]]);
 
     const std::unique_ptr<Graphics> graphics = open_headless();
     const gles::Capabilities& driver = graphics->gpu.capabilities();

@@ -181,16 +181,24 @@ TEST(HardMatrix, ACaseThatCalmsDownDoesSoForAsLongAsTheRuleWaits) {
     }
 }
 
-TEST(HardMatrix, SmallGridsAndWhatWasRedComeFirst) {
+TEST(HardMatrix, OfTheFullMatrixGridsAreSelected) {
+    for (const Cell& cell : cells_of({.extent = Extent::Full, .grids = {"64"}})) {
+        EXPECT_EQ(cell.trial.cells, glm::ivec3(64));
+        EXPECT_EQ(cell.cases.size(), 1u) << cell.name() << ": pairs are tried on 25^3";
+        EXPECT_FALSE(cell.cases.front()->small_only) << cell.name();
+    }
+}
+
+TEST(HardMatrix, SingleCasesSmallGridsAndWhatWasRedComeFirst) {
     const std::vector<Cell> cells =
         cells_of({.cases = {"stall+cup", "stall", "jitter"}, .grids = {"9", "8"}});
     ASSERT_EQ(cells.size(), 10u);
     std::vector<std::string> order;
     for (const std::size_t i : telling_first(cells, std::vector{a_result("jitter", false)}))
         order.push_back(cells[i].name() + " " + grid_name(cells[i].trial.cells));
-    const std::vector<std::string> wanted{"jitter 8^3",    "jitter 8^3",   "stall 8^3",  "stall 8^3",
-                                          "stall+cup 8^3", "jitter 9^3",   "jitter 9^3", "stall 9^3",
-                                          "stall 9^3",     "stall+cup 9^3"};
+    const std::vector<std::string> wanted{"jitter 8^3",    "jitter 8^3",   "stall 8^3", "stall 8^3",
+                                          "jitter 9^3",    "jitter 9^3",   "stall 9^3", "stall 9^3",
+                                          "stall+cup 8^3", "stall+cup 9^3"};
     EXPECT_EQ(order, wanted);
 }
 
