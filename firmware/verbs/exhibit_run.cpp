@@ -163,6 +163,8 @@ void ExhibitRun::open() {
 void ExhibitRun::open_hand() {
     const Exhibit& exhibit = settings_->exhibit();
     RunDevice device = make_device(options_, exhibit, office_.has_manager());
+    if (!device.trouble.empty())
+        office_.say(Event::DeviceLost, device.trouble + "; a Falcon that was without power will not start");
     hand_.emplace(std::move(device.device), std::move(device.name), loop_settings(exhibit),
                   flights_folder(exhibit), panel_ ? &panel_->stop_input() : nullptr);
     hand_->orders().set_ceiling(exhibit.max_force_n);

@@ -20,6 +20,18 @@ emulated::AxisMap axes_of(const RunOptions& options) {
     }
 }
 
+RunDevice real_hand(FalconConfig config, bool goes_on) {
+    constexpr const char* kName = "Novint Falcon";
+    try {
+        return {make_real_falcon(config), kName};
+    } catch (const InputError& e) {
+        // A service that ended here would end at every start, up to safe mode; and a Falcon that kept its power needs no image.
+        if (!goes_on || config.firmware.empty()) throw;
+        config.firmware.clear();
+        return {make_real_falcon(config), kName, e.what()};
+    }
+}
+
 }  // namespace
 
 RunDevice make_device(const RunOptions& options, const Exhibit& exhibit, bool waits) {
@@ -38,7 +50,7 @@ RunDevice make_device(const RunOptions& options, const Exhibit& exhibit, bool wa
                 "--haptics falcon: a real hand follows no recording and no virtual time; leave out --motion "
                 "and "
                 "--clock stepped, or use --haptics emulated");
-        return {make_real_falcon(exhibit.falcon), "Novint Falcon"};
+        return real_hand(exhibit.falcon, waits);
     }
     emulated::EmulatedFalconSettings settings;
     std::unique_ptr<emulated::HandMotion> motion;

@@ -302,6 +302,21 @@ TEST_F(ExhibitEndToEnd, EndsWellWithTheTerminalItWasStartedFrom) {
     EXPECT_THAT(ended.out, HasSubstr("haptic loop"));
 }
 
+TEST_F(ExhibitEndToEnd, AFirmwareImageThatCannotBeReadDoesNotEndAService) {
+    drop("[falcon]\nfirmware = \"/gone/falcon.bin\"\n");
+    ManagerSocket manager(folder / "notify");
+    std::vector<std::string> arguments = command();
+    std::replace(arguments.begin(), arguments.end(), std::string("emulated"), std::string("falcon"));
+    EXPECT_EQ(Program(arguments).wait().status, 2) << "who asks at a terminal is told";
+    arguments.insert(arguments.begin(), {"env", "NOTIFY_SOCKET=" + (folder / "notify")});
+    Program exhibit(arguments);
+    EXPECT_TRUE(plays());
+    exhibit.send(SIGTERM);
+    const Ended ended = exhibit.wait();
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_THAT(ended.err, HasSubstr("/gone/falcon.bin"));
+}
+
 TEST_F(ExhibitEndToEnd, TellsItsManagerOfItsLife) {
     ManagerSocket manager(folder / "notify");
     std::vector<std::string> arguments = command();
