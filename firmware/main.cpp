@@ -365,7 +365,7 @@ struct CommandLine {
             "  eddy haptics --quick                        the laws alone, in a fluid that is known exactly\n"
             "  eddy haptics --scene jet --out jet          one scene (minutes in software; with free bodies, "
             "far more)\n"
-            "  eddy haptics --out haptics                  what docs/haptics.md is made of\n"
+            "  eddy haptics --grid 64 --out haptics                  what docs/haptics.md is made of\n"
             "The law of an exhibit is chosen by force = \"model\" or \"filter\" in its exhibit.toml.");
     }
 

@@ -29,7 +29,8 @@ constexpr EventKind kKinds[] = {
     {Event::SafeMode, "safe_mode", "84379d95ec10449991c647d019a4790a", Priority::Error,
      "Safe mode: the settings of the factory, and no force; three restarts of the machine within an hour did "
      "not help, or the file `safe` in the state folder asks for it.",
-     "Read what came before. When it is mended, remove that file, or wait an hour, and start the service."},
+     "Read what came before. When it is mended, remove that file, or wait an hour, and restart the service, "
+     "or switch the box off and on: it does not come back by itself."},
     {Event::Crashed, "crashed", "f20e9d2e06074a1c9e0ac6251c7df971", Priority::Error,
      "A record of a crash was found, with the last lines of the log and the last seconds of the hand.",
      "Keep the files it names and report them; `eddy replay` shows the seconds of the hand."},
@@ -69,7 +70,8 @@ constexpr EventKind kKinds[] = {
      "The haptic device is there and ready.", "Nothing."},
     {Event::DeviceLost, "device_lost", "ca9e2c22be3d404bb4c18c99b9d64c49", Priority::Warning,
      "The haptic device is gone or does not answer; the show goes on without it.",
-     "Look at its cable and its power supply; `eddy falcon` says what it waits for."},
+     "Look at its cable and its power supply; `systemctl stop eddy`, then `eddy falcon` says what it waits "
+     "for."},
     {Event::ForceOff, "force_off", "f5a90ced5acd4e2689ddd51c35abdcb3", Priority::Warning,
      "The force was taken away; the line says why.",
      "A stop input waits for its restart; else see status.json and the recording of the seconds before."},
@@ -77,7 +79,7 @@ constexpr EventKind kKinds[] = {
      "The seconds before a fault of the hand were kept.", "`eddy replay` tells them."},
     {Event::QualityChanged, "quality_changed", "71cad9c87b764ff49b93cc89638c30e6", Priority::Info,
      "The fluid is computed more, or less, exactly from now on.",
-     "Nothing; if it is too often, `eddy tune` measures the machine."},
+     "Nothing; if it is too often, stop the show: `eddy tune` measures the machine."},
     {Event::ScreenLost, "screen_lost", "7addf5fdc6eb4a8daa274b01029ebec6", Priority::Warning,
      "No screen, or none that takes a picture.", "Look at screen and cable; it is tried again by itself."},
     {Event::ScreenFound, "screen_found", "c1bdf0e2018a4176a9ccb2caf77446c5", Priority::Notice,
