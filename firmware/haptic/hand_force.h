@@ -16,7 +16,6 @@ struct HandAtTick {
     bool known = false;               ///< the device is ready and answering
     std::optional<Instant> moved_at;  ///< when the reading was taken, if one came in this tick
     glm::dvec3 body_m{0.0};           ///< where the body is shown, Tank frame
-    glm::dvec3 velocity_m_s{0.0};     ///< of the handle, Device frame
 };
 
 /// The fluid's answers made into a force for each tick, by one law or the other. With the model it is

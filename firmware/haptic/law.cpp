@@ -71,8 +71,7 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
         .now = in.now,
         .known = out.pose.known,
         .moved_at = in.reading && sound ? std::optional(in.reading->taken_at) : std::nullopt,
-        .body_m = out.pose.position_m,
-        .velocity_m_s = state.hand.velocity_m_s()};
+        .body_m = out.pose.position_m};
     out.filtered_n = state.force(in.fluid, fresh, in.orders, hand, dt) +
                      soft_wall_n(in.orders, state.hand.position_m(), state.hand.velocity_m_s());
     const GateInput gate{.force_n = out.filtered_n,

@@ -27,7 +27,7 @@ class Passivity {
     /// A debt is paid back over this time, not in one tick as in the paper: that would be a tap.
     static constexpr Seconds kPayBack{0.030};
 
-    /// A velocity below this is hardly more than the flicker of an encoder (hand_motion.h), and no energy: damping fades out.
+    /// A velocity below this is hardly more than the flicker of an encoder, and no energy: damping fades out.
     static constexpr double kStillMS = 0.02;
 
     /// A tick: where the handle is, before the tick's force is given.
@@ -35,7 +35,8 @@ class Passivity {
     /// The fluid's answer to the pose of that time: what it has received from its body since the last answer, and what energy it
     /// has now [J of the hand].
     void received(double received_j, double stored_j, Instant pose_time);
-    /// The damping force for this tick, at this velocity of the handle.
+    /// The damping force for this tick, at this velocity on the way that moved_to() counts: against a wall the handle flickers
+    /// and the body stands still, and damping that flicker pays no debt back.
     glm::dvec3 damping_n(const glm::dvec3& velocity_m_s) const;
     /// The whole force that is given until the next tick, and how much of it is damping.
     void given(const glm::dvec3& force_n, const glm::dvec3& damping_n);

@@ -59,13 +59,11 @@ struct Stirred {
             body_m = scale * at(t);
             velocity_m_s = velocity;
         }
-        const glm::dvec3 v = (at(t + 1e-6) - at(t)) / 1e-6;
         return force(answer, fresh, orders,
                      {.now = milliseconds(ms),
                       .known = true,
                       .moved_at = milliseconds(ms),
-                      .body_m = scale * at(t),
-                      .velocity_m_s = v},
+                      .body_m = scale * at(t)},
                      Seconds(1e-3));
     }
     /// rms of (force - exact) / rms of exact, over the last of so many seconds.
