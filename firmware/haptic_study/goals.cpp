@@ -9,8 +9,7 @@ namespace eddy::haptic_study {
 namespace {
 
 // What is felt: vibration of half a percent of the force is not; a tremor of 0.05 N or 0.1 mm is no tremor.
-constexpr double kRoughness = 0.005, kSwingN = 0.05, kSwingM = 1e-4, kPull = 0.02, kRateHz = 50.0;
-constexpr double kOfFlow = 2.0;
+constexpr double kRoughness = 0.005, kPull = 0.02, kRateHz = 50.0;
 
 const CircleRow* other(const Study& study, const CircleRow& model) {
     for (const CircleRow& row : study.circles)
@@ -129,7 +128,6 @@ Goal pull(const Study& study) {
             fmt::format("{:.2f} % off at the worst", 100.0 * worst), worst <= kPull};
 }
 
-/// A handle that a flow shakes is no limit cycle: that would swing more than the flow makes it.
 Goal rest(const Study& study, bool known) {
     int swinging = 0, carried = 0, all = 0;
     std::string which;
@@ -138,9 +136,8 @@ Goal rest(const Study& study, bool known) {
             continue;
         ++all;
         const Swing &found = row.swing, &flow = row.carried;
-        if (found.force_n <= kSwingN && found.position_m <= kSwingM) continue;
-        if (found.force_n <= std::max(kSwingN, kOfFlow * flow.force_n) &&
-            found.position_m <= std::max(kSwingM, kOfFlow * flow.position_m)) {
+        if (rests(found)) continue;
+        if (rests(found, flow)) {
             ++carried;
             continue;
         }
@@ -149,6 +146,7 @@ Goal rest(const Study& study, bool known) {
                                  which.empty() ? "; " : ", ", row.fluid, to_string(row.holder), row.rate_hz,
                                  found.force_n, 1e3 * found.position_m, flow.force_n, 1e3 * flow.position_m);
     }
+    if (swinging > 4) which += fmt::format(", and {} more", swinging - 4);
     return {
         fmt::format("the handle comes to rest (at most 0.05 N, 0.1 mm{}) held, held stiffly and let go, {}",
                     known ? "" : ", or twice what the flow by itself makes of it",

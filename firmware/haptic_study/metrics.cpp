@@ -101,4 +101,10 @@ Swing swing(std::span<const Felt> ticks) {
             half_excursion(ticks, [](const Felt& tick) { return tick.position_m; })};
 }
 
+bool rests(const Swing& found, const Swing& flow) {
+    constexpr double kForceN = 0.05, kPositionM = 1e-4, kOfFlow = 2.0;
+    return found.force_n <= std::max(kForceN, kOfFlow * flow.force_n) &&
+           found.position_m <= std::max(kPositionM, kOfFlow * flow.position_m);
+}
+
 }  // namespace eddy::haptic_study

@@ -26,5 +26,7 @@ struct Swing {
     double position_m = 0.0;
 };
 Swing swing(std::span<const Felt> ticks);
+/// At most 0.05 N and 0.1 mm, or twice what a flow makes of it: a handle that a flow shakes is no limit cycle.
+bool rests(const Swing& found, const Swing& flow = {});
 
 }  // namespace eddy::haptic_study

@@ -128,6 +128,7 @@ The hand goes round a circle of 20 mm once a second. The reference is the same f
 where it really is. Roughness: what is felt less the reference, 10 to 400 Hz, as a share of the reference; trembling: of what is felt alone.
 A scene's own fluid trembles as the body crosses its grid, at 1 kHz as well, and resists otherwise when its steps are longer; both count as
 roughness and error here though no law can change them. After the circle the hand rests and sets off at 0.1 m/s: half of the force after so long.
+In a jet the stream's own force is in the way: when the hand's part of it comes is not to be read there from the last time.
 At 1000 answers a second the encoders are what is rough: a count in a millisecond is an acceleration.
 {}{}
 {}
@@ -145,7 +146,7 @@ What still swings, as half of the largest excursion in the last second: the hand
 a jet carries to a soft wall at the bounds of the tank. The known
 fluid is here as steep as the gain is limited to. `fixed`: the handle cannot move, so what swings is the flow itself. A flow that
 sheds eddies shakes a handle, which is no limit cycle of the loop: beside each is what the force on the fixed handle, less its mean,
-makes of a handle that is held so.
+makes of a handle that is held so; where it swings more than twice as much, the handle is fixed where it came to rest, in place of the middle.
 
 {}
 ## How strong the force may be

@@ -94,8 +94,13 @@ class SceneStudy {
                 const std::vector<Felt> ticks =
                     coming_to_rest(*at(rate_hz), ForceLaw::Model, rate_hz, holder);
                 if (holder == Holder::Fixed) fixed = ticks;
-                study_.swings.push_back({name_, ForceLaw::Model, rate_hz, holder, swing_figures(ticks),
-                                         carried_figures(fixed, holder)});
+                SwingRow row{name_,  ForceLaw::Model,      rate_hz,
+                             holder, swing_figures(ticks), carried_figures(fixed, holder)};
+                // Where a jet has carried it, or an arm gave way, the flow may shake it more than in the middle.
+                if (!rests(row.swing, row.carried))
+                    row.carried =
+                        carried_figures(fixed_there(*at(rate_hz), ForceLaw::Model, rate_hz, ticks), holder);
+                study_.swings.push_back(row);
                 done_((holder == Holder::LetsGo ? 7.0 : 3.9) * rate_hz, "whether the handle comes to rest");
             }
         }

@@ -39,8 +39,9 @@ struct SwingRow {
     double rate_hz;
     Holder holder;
     Swing swing;
-    Swing
-        carried{};  ///< what the flow by itself would make of it; nothing in the known fluid, which does not flow
+    /// What the force on a handle that cannot move makes of it: one in the middle, or, if it swings more than that explains, where it
+    /// came to rest. Nothing in the known fluid, which does not flow.
+    Swing carried{};
 };
 struct PullRow {
     std::string fluid;

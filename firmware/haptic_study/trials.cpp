@@ -113,6 +113,15 @@ std::vector<Felt> coming_to_rest(StudyFluid& fluid, ForceLaw law, double rate_hz
         .ticks;
 }
 
+std::vector<Felt> fixed_there(StudyFluid& fluid, ForceLaw law, double rate_hz, std::span<const Felt> rested) {
+    const std::span<const Felt> end = rested.last(1000);
+    glm::dvec3 there_m(0.0);
+    for (const Felt& tick : end) there_m += tick.position_m / static_cast<double>(end.size());
+    Handle handle(Holder::Fixed, [=](Seconds) { return there_m; });
+    const Seconds duration(1e-3 * static_cast<double>(rested.size()));
+    return play(fluid, handle, {.law = law, .rate_hz = rate_hz, .duration = duration}).ticks;
+}
+
 Swing swing_figures(std::span<const Felt> ticks) {
     return swing(ticks.last(1000));
 }

@@ -48,6 +48,8 @@ double pull_share(StudyFluid& fluid, double rate_hz);
 /// What the hand does and feels while it comes to rest: it has leapt by 20 mm, two seconds and a half before the end, or let the
 /// handle go at 0.13 m/s, 5.6 s before.
 std::vector<Felt> coming_to_rest(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder);
+/// The same of a handle that cannot move, where another came to rest in the end.
+std::vector<Felt> fixed_there(StudyFluid& fluid, ForceLaw law, double rate_hz, std::span<const Felt> rested);
 /// What of that still swings in its last second.
 Swing swing_figures(std::span<const Felt> ticks);
 /// What the flow by itself makes of a handle held so: the force that a handle felt which cannot move, less its mean, on
