@@ -8,21 +8,33 @@ from machine import Failed, until
 
 LEFT, RIGHT = "-0.03 -0.02 0.0", "0.03 0.02 0.0"  # where the handle is held [m]
 PRESSED = "somebody pressed the button"
-BLOWS = (("crashes", "kill -SEGV"), ("hangs", "kill -STOP"))
+CRASH, HANG = ("crashes", "kill -SEGV"), ("hangs", "kill -STOP")
 
 
-def each_time(bench):
-    bench.prepare()
-    bench.first_start()
-    with bench.step("the data partition is sound after that power cut"):
-        bench.sound_data("a power cut")
+def quick(bench):
+    """What no change of the program may break."""
+    first_start(bench)
     with bench.machine() as m:
         e = Exhibit(m, bench.expected)
         show(bench, e)
         hand(bench, e)
         button(bench, e)
         settings(bench, e)
-        blows(bench, e)
+        blows(bench, e, CRASH)
+        nothing_listens(bench, e)
+
+
+def each_time(bench):
+    first_start(bench)
+    with bench.machine() as m:
+        e = Exhibit(m, bench.expected)
+        show(bench, e)
+        hand(bench, e)
+        button(bench, e)
+        stop(bench, e)
+        settings(bench, e)
+        another_scene(bench, e)
+        blows(bench, e, CRASH, HANG)
         nothing_listens(bench, e)
         cut_while_writing(bench, e)
     with bench.machine() as m:
@@ -32,6 +44,13 @@ def each_time(bench):
     bench.disk.damage("data")
     with bench.machine() as m:
         damaged(bench, m)
+
+
+def first_start(bench):
+    bench.prepare()
+    bench.first_start()
+    with bench.step("the data partition is sound after that power cut"):
+        bench.sound_data("a power cut")
 
 
 def want_scene(e, title):
@@ -76,6 +95,9 @@ def button(bench, e):
         before = e.count("reset", PRESSED)
         bench.bridge.tell(f"press {BUTTON} 1000")
         until("the log to say so", PATIENCE, lambda: e.count("reset", PRESSED) > before)
+
+
+def stop(bench, e):
     with bench.step("the stop is pressed: no force, and it stays so until the button is pressed") as s:
         bench.bridge.tell(f"high {STOP}")
         bench.want_lamp("red", "stopped", blinks=False)
@@ -148,6 +170,9 @@ def settings(bench, e):
             raise Failed(f"the answer is {config}")
         if json.loads(answer["status.json"])["scene"] != "Boot test":
             raise Failed("status.json is of another scene")
+
+
+def another_scene(bench, e):
     with bench.step("a file with another scene: the old one runs on until the new one is ready") as s:
         e.write(f"{CONFIG}/another.toml", (SETTINGS / "boot-test.toml").read_text().replace("Boot test", "Another"))
         begin = e.write(f"{CONFIG}/conf.d/20-less.toml", "max_force_n = 2.0\nscene = \"another.toml\"\n")
@@ -161,19 +186,20 @@ def settings(bench, e):
         e.wait_for_proof(PATIENCE)
 
 
-def blows(bench, e):
-    for what, blow in BLOWS:
+def blows(bench, e, *each):
+    scene = e.status()["scene"]
+    for what, blow in each:
         with bench.step(f"the program {what}: the show is back, with its settings and its handle"):
             process, said = e.process(), len(e.machine.said())
             e.machine.ask(f"{blow} {process}")
             e.wait_for_show(PATIENCE, said)
             if e.process() == process:
                 raise Failed("it is the same process")
-            want_scene(e, "Another")
+            want_scene(e, scene)
             e.wait_for_status("the handle to be back", lambda s: s["haptics"]["state"] == "ready", PATIENCE)
-    with bench.step("of both there is a record"):
+    with bench.step("of that there is a record"):
         records = e.machine.ask("ls /var/lib/eddy/crash-*.txt").split()
-        if len(records) < len(BLOWS):
+        if len(records) < len(each):
             raise Failed(f"there are only {records}")
 
 
@@ -214,7 +240,7 @@ def by_its_own_clock(bench, e):
     # One processor in place of two is another renderer to the driver, which prepares its shaders anew.
     with bench.step("by its own clock: from the kernel's start to the show, with shaders to prepare", fatal=True) as s:
         stages_of_a_start(e, s, 0)
-    for what, blow in BLOWS:
+    for what, blow in (CRASH, HANG):
         with bench.step(f"by its own clock: the program {what}") as s:
             said, begin = len(m.said()), m.uptime_s()
             m.ask(f"{blow} {e.process()}")
