@@ -209,6 +209,7 @@ void Show::reset() {
     held_velocity_m_s_ = glm::dvec3(0.0);
     update_ = {};
     stored_j_ = 0.0;
+    answer_.force_n = answer_.torque_nm = glm::dvec3(0.0);
     ripple_.reset();
     handover_ = {};
 }

@@ -66,13 +66,17 @@ void Act::begin(HandOrders& orders, const Act* before) {
 void Act::reset() {
     show_.reset();
     stale_answers_ = show_.answers();
+    rest_ends_ = Instant(0);  // what it rests from is over
     give_orders();
 }
 
 void Act::publish(bool wait) {
-    const std::uint64_t before = show_.answers();
     show_.publish(wait);
-    if (before == stale_answers_ && show_.answers() > before) give_orders();
+    give_force_back();
+}
+
+void Act::give_force_back() {
+    if (waits_for_answer_ && show_.answers() > stale_answers_) give_orders();
 }
 
 /// The hand may go as far as the coarsest grid lets it.
@@ -84,6 +88,7 @@ void Act::give_orders() {
     orders.gain = gain_.gain();
     orders.most_n = scene_.haptics.max_force_n;
     orders.enabled = show_.answers() > stale_answers_;
+    waits_for_answer_ = !orders.enabled;
     show_.set_gain(orders.gain);
     orders_->give(orders);
 }
@@ -123,6 +128,7 @@ void Act::go_on(Instant now, Seconds interval) {
     rest_ends_ = now + kRestPeriod;
     const QualityControl::Interval since_last{interval, elsewhere, steps_};
     fluid_update(now, std::min(interval, kLongestStep));
+    give_force_back();
     if (const auto change = quality_.update(now, since_last, show_.pose().buttons))
         change_quality(*change, now);
 }

@@ -72,6 +72,8 @@ class Act {
 
   private:
     void give_orders();
+    /// As soon as there is an answer, from wherever it came.
+    void give_force_back();
     void fluid_update(Instant now, Seconds dt);
     void change_quality(const QualityControl::Change& change, Instant now);
     /// What can wait until nobody is here.
@@ -94,6 +96,7 @@ class Act {
     std::size_t pieces_;                             ///< that there were at first
     HandOrders* orders_ = nullptr;                   ///< while it is played
     std::uint64_t stale_answers_ = 0;                ///< up to this one, of before a beginning
+    bool waits_for_answer_ = false;                  ///< for the first that is not, and with it the force
     Instant rest_ends_{0};
     Seconds elsewhere_{0.0};  ///< of the interval until the next update: spent beside the fluid,
     long steps_ = 1;          ///< and steps that the fluid takes in it

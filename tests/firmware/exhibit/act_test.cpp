@@ -27,6 +27,18 @@ std::unique_ptr<HapticDevice> person() {
         std::make_unique<emulated::PersonMotion>(emulated::PersonSettings{}), settings);
 }
 
+/// A handle that nobody moves.
+class Still final : public emulated::HandMotion {
+  public:
+    glm::dvec3 position_m(Seconds) const override { return glm::dvec3(0.0); }
+};
+
+std::unique_ptr<HapticDevice> still_hand() {
+    emulated::EmulatedFalconSettings settings;
+    settings.plant.hand = emulated::Hand::OnPath;
+    return emulated::make_emulated_falcon(std::make_unique<Still>(), settings);
+}
+
 void make_ready(Act& act) {
     while (act.prepare()) {
     }
@@ -35,7 +47,10 @@ void make_ready(Act& act) {
 /// Acts on virtual time, with a person at an emulated Falcon.
 class ActTest : public gles::GlTest {
   protected:
-    HandSide hand{person(), "emulated", {}, {}};
+    explicit ActTest(std::unique_ptr<HapticDevice> device = person())
+        : hand(std::move(device), "emulated", {}, {}) {}
+
+    HandSide hand;
     Instant now{0};
     std::vector<TickRecord> ticks;
 
@@ -77,6 +92,23 @@ TEST_F(ActTest, GivesNoForceBeforeItsFluidHasAnswered) {
     first.reset();
     EXPECT_FALSE(hand.exchange().orders.newest().enabled);
     play(first, 100ms);
+    EXPECT_TRUE(hand.exchange().orders.newest().enabled);
+}
+
+class StillActTest : public ActTest {
+  protected:
+    StillActTest() : ActTest(still_hand()) {}
+};
+
+TEST_F(StillActTest, AResetWhileTheShowRestsTakesTheForceAwayForAMomentOnly) {
+    Act act = this->act("1000");
+    make_ready(act);
+    act.begin(hand.orders());
+    play(act, 7s);
+    ASSERT_GT(act.show().figures().rested, 0);
+    act.reset();
+    EXPECT_FALSE(hand.exchange().orders.newest().enabled);
+    play(act, 200ms);
     EXPECT_TRUE(hand.exchange().orders.newest().enabled);
 }
 
