@@ -91,6 +91,7 @@ struct Case {
     bool puts_faults = false;  ///< its script does
     /// Transport must not make new extremes of the velocity; alone only, with cut cells.
     bool watches_transport = false;
+    bool may_be_idle = false;  ///< what moves may be where there is no fluid
     long pardon_steps = 0;               ///< after a fault: how many steps it may take to heal
     bool small_only = false;             ///< takes too long on large grids
     bool full_only = false;              ///< takes too long for a quick look

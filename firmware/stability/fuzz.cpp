@@ -28,7 +28,8 @@ Case as_case(const Scene& scene, long steps) {
             .narrowing =
                 [&scene](const glm::ivec3& n) {
                     return scene.bodies.empty() ? 1.0 : std::max({n.x, n.y, n.z});
-                }};
+                },
+            .may_be_idle = true};
 }
 
 }  // namespace

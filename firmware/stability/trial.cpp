@@ -257,7 +257,7 @@ void Run::look(const Moment& moment) {
 }
 
 Outcome Run::outcome() {
-    if (step_ == mixture_.steps) judge_life();
+    if (step_ == mixture_.steps && !alone().may_be_idle) judge_life();
     Outcome outcome{step_, rule_.verdict()};
     if (step_ < mixture_.steps) return outcome;  // a criterion is about what happened to the end
     if (outcome.verdict.pass && alone().complaint)
