@@ -192,8 +192,9 @@ std::string report_of(std::span<const Cell> cells, std::span<const Result> resul
         "the time of "
         "friction (what ends earlier, as pairs do, is not judged by this);\n"
         "- what the case wants besides (`eddy stability --list`).\n\n"
-        "It judges fields that it downloads and forces that the hand gets, never what the solver says of "
-        "itself. The column "
+        "It judges fields that it downloads and forces that the hand gets; what the solver says of itself is "
+        "no "
+        "excuse, and a fault that it finds with itself between two looks is one more. The column "
         "energy is the largest kinetic energy as a share of what was allowed.\n\n";
     for (const std::filesystem::path& picture : pictures)
         text += fmt::format("![hard cases]({})\n\n", picture.filename().string());

@@ -73,6 +73,20 @@ TEST(Criterion, AModeThatStaysIsFound) {
     EXPECT_TRUE(energy_decays(100)(left(0.11)));
 }
 
+TEST(Criterion, AFaultThatIsNotForgottenIsFound) {
+    const auto differs = [](double later_n) {
+        History history;
+        for (int n = 0; n < 60; ++n) {
+            history.common_n.emplace_back(0.0);
+            const double off_n = n < 10 ? 0.0 : n < 50 ? 1.0 : later_n;
+            history.steps.push_back({.loads = {{.force_n = {off_n, 0.0, 0.0}}}});
+        }
+        return history;
+    };
+    EXPECT_FALSE(is_forgotten(10, 40)(differs(0.09)));
+    EXPECT_TRUE(is_forgotten(10, 40)(differs(0.11)));
+}
+
 TEST(Criterion, VolumeIsBalancedAgainstTheMostThatFlowedIn) {
     const auto leak = [](double net) {
         return with_looks(100, [net](History::Look& look, double share) {
