@@ -252,7 +252,7 @@ Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, const Pressure::Work& 
     keep(&StepVelocities::predicted, predicted);
     // The last step's result is a better guess than this step's right-hand side: at rest in a steady flow it is the
     // solution, whatever the cycles leave.
-    return viscosity_->diffuse(step_ == 0 ? predicted : diffused_, sound_.most_diffused_m_s, predicted, dt_s_,
+    return viscosity_->diffuse(step_ == 0 ? predicted : diffused_, sound_.fastest_m_s, predicted, dt_s_,
                                viscous_cycles(setup_, dt_s_), walls_.time(time_s_));
 }
 

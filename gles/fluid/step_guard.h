@@ -33,7 +33,8 @@ inline constexpr double kFluidLengths = 10.0;
 /// Above these, values that live from step to step are no values of a flow; the shaders make 0 of them (guard.glsl).
 struct Sound {
     float fastest_m_s;  ///< of the fluid
-    /// The same between friction and pressure: each holds the other there, and thick fluid is pushed harder than it moves.
+    /// The same between friction and pressure: each holds the other there, and thick fluid is pushed harder than it moves. For the
+    /// count of faults alone; a guess beyond fastest_m_s is none.
     float most_diffused_m_s;
     /// Of dt p / (rho h) [m/s]; of what is a pressure, a sixteenth is kept whole for the next step.
     float most_phi;
