@@ -4,6 +4,9 @@
 // is the wall's velocity (FRICTION_*, walls.h). Variant CUT: the link is as wide as the mean share of fluid in the two
 // faces' cells, and a body's surface holds on to its faces as grip.frag says. Variant CORRECTION: walls and bodies stand still,
 // as on the coarse grids.
+// Variant TO_WALL (vec3): on such a grid the last cell of an axis may lie in the tank only in part; so much stronger is the link
+// from the last free face to that on the wall. Without it a grid of one more than a power of two cells has its coarsest
+// grids move what the wall holds, and each cycle makes the error larger.
 #ifdef CUT
 uniform sampler2D shares;  // of fluid in the cell around each face
 uniform sampler2D grips;
@@ -34,6 +37,9 @@ void links(sampler2D velocity, ivec3 c, int axis, int sign, vec3 share, inout ve
     // The component across the wall has faces on it; the other two have their last ones half a cell before it.
     bool at_wall = sign < 0 ? c[axis] == 0 : c[axis] + 1 >= CELLS[axis];
     if (at_wall) {
+#ifdef TO_WALL
+        if (sign > 0) w *= TO_WALL;
+#endif
 #ifdef FRICTION
         float friction = sign < 0 ? FRICTION_LOW[axis] : FRICTION_HIGH[axis];
 #ifdef CORRECTION

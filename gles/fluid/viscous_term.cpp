@@ -51,7 +51,15 @@ ViscousTerm::Split ViscousTerm::make(Gpu& gpu, const char* name, const char* sha
     variant.layouts.emplace_back("FACES", Faces::layout(n));
     variant.defines.emplace_back("CELLS", glsl(n));
     if (l > 0) variant.defines.emplace_back("CORRECTION", "");
-    walls.declare(variant, glm::vec3(setup_->cells) / std::exp2(static_cast<float>(l)) - glm::vec3(n - 1));
+    const glm::vec3 covered = glm::vec3(setup_->cells) / std::exp2(static_cast<float>(l)) - glm::vec3(n - 1);
+    walls.declare(variant, covered);
+    glm::vec3 to_wall(1.0f);
+    for (int axis = 0; axis < 3; ++axis)
+        if (setup_->walls[static_cast<std::size_t>(2 * axis + 1)].kind != WallKind::Open)
+            to_wall[axis] = 1.0f / covered[axis];
+    if (to_wall != glm::vec3(1.0f))
+        variant.defines.emplace_back(
+            "TO_WALL", fmt::format("vec3({:.8f}, {:.8f}, {:.8f})", to_wall.x, to_wall.y, to_wall.z));
     Variant cut = variant;
     cut.defines.emplace_back("CUT", "");
     Split split{Pass(gpu, fmt::format("{} {}", name, l), shader, Faces::layout(n), variant), {}};
