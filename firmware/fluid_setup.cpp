@@ -76,6 +76,9 @@ gles::WallSetup wall_setup(const Scene::Wall& wall, std::string& all_glsl) {
     w.velocity_at = [u = *wall.velocity_m_s](const glm::dvec3& x_m, double t_s) {
         return u.evaluate(x_m, t_s);
     };
+    w.varies_in_space =
+        wall.velocity_m_s->uses('x') || wall.velocity_m_s->uses('y') || wall.velocity_m_s->uses('z');
+    w.varies_in_time = wall.velocity_m_s->uses('t');
     return w;
 }
 

@@ -6,6 +6,7 @@
 
 #include "firmware/fluid_setup.h"
 #include "gles/body/bounds.h"
+#include "gles/readback.h"
 
 namespace eddy {
 namespace {
@@ -155,9 +156,8 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     const bool leaps = follows && glm::length(to - from) > fastest_m_s * dt.count();  // guard hand_leap
     if (leaps) ++figures_.placed;
     for (int n = 1; n <= parts; ++n) {
-        if (n > 1)
-            publish(
-                true);  // only a few results are kept under way (gles/readback.h), and all belong to the answer
+        // A GPU that is slower than the clock would have each step drop the oldest answer, just as it is done.
+        if (under_way_.size() >= gles::Readback::kMost) publish(true);
         time_s_ += part.count();
         states_ = motions_.at(time_s_, part.count());
         if (held) {

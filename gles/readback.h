@@ -9,9 +9,11 @@
 namespace eddy::gles {
 
 /// Brings one small RGBA32F texture to the CPU without waiting: each request copies into a pixel buffer
-/// behind a fence, and is picked up when the fence has passed. Up to three requests may be under way.
+/// behind a fence, and is picked up when the fence has passed. Up to kMost requests may be under way: one more, and the oldest
+/// is dropped unread.
 class Readback {
   public:
+    static constexpr std::size_t kMost = 3;
     Readback(Gpu& gpu, const glm::ivec2& size);
     ~Readback();
     Readback(const Readback&) = delete;
@@ -37,7 +39,7 @@ class Readback {
     };
     Gpu* gpu_;
     glm::ivec2 size_;
-    std::array<Slot, 3> slots_;
+    std::array<Slot, kMost> slots_;
     std::size_t first_ = 0, under_way_ = 0;
     bool answered_ = false;  // ever
     std::uint64_t failures_ = 0;

@@ -82,6 +82,7 @@ struct WallSetup {
     VectorFormula velocity_m_s{};  ///< of NoSlip, along it, and of Inflow
     /// The same at a place [m] and time [s], for what no shader computes (force_methods, Driven); empty: not known.
     std::function<glm::dvec3(const glm::dvec3&, double)> velocity_at{};
+    bool varies_in_space = true, varies_in_time = true;  ///< velocity_at; what does not needs fewer looks
 };
 
 /// A ball of fluid that is driven, or from which smoke comes, or both.

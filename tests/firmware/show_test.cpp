@@ -111,6 +111,26 @@ TEST_F(ShowTest, FluidResistsAHandThatSetsOff) {
     EXPECT_LT(std::abs(force.y), 0.02e-3);
 }
 
+TEST_F(ShowTest, AGpuSlowerThanTheClockLosesNoAnswer) {
+    Show prompt(gpu, scene_with(""), exchange);
+    const auto stir = [&](Show& show, int n) {
+        hand_at({0.08 + 0.002 * std::sin(n), 0.08, 0.08}, n * 20ms - 3ms);
+        show.update(n * 20ms, kDt, false);
+    };
+    for (int n = 1; n <= 8; ++n) {
+        stir(prompt, n);
+        prompt.publish(true);
+    }
+    const FluidSnapshot expected = exchange.fluid.newest();
+    Show late(gpu, scene_with(""), exchange);
+    for (int n = 1; n <= 8; ++n) stir(late, n);
+    EXPECT_GE(exchange.fluid.newest().sequence, 5u) << "handed on as room is made";
+    gles::finish();
+    for (int n = 0; n < 3; ++n) late.publish(true);
+    EXPECT_EQ(exchange.fluid.newest().sequence, 8u);
+    EXPECT_EQ(exchange.fluid.newest().received_j, expected.received_j) << "none is missing in the books";
+}
+
 TEST_F(ShowTest, AnAnswerComesWithTheMotionItBelongsToAndTheFluidKeepsBooks) {
     Show show(gpu, scene_with(""), exchange);
     const double way_m[] = {0.0, 0.004, 0.008, 0.008, 0.008};  // off at 0.2 m/s, and to rest again

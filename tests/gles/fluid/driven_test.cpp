@@ -101,6 +101,57 @@ TEST(Driven, SeesASmallInlet) {
     EXPECT_DOUBLE_EQ(driven.lately_m_s(), 2.0);
 }
 
+TEST(Driven, MissesNoInletThatTheGridShows) {
+    // Half a cell around the middle of one face; of the four that take turns, each.
+    for (const glm::dvec2& middle :
+         {glm::dvec2(0.45, 0.45), glm::dvec2(0.55, 0.45), glm::dvec2(0.45, 0.55), glm::dvec2(0.55, 0.55)})
+        for (const bool steady : {true, false}) {
+            FluidSetup s = metre_of_fluid();
+            s.walls[3] = {.kind = WallKind::Inflow,
+                          .velocity_at =
+                              [middle, steady](const glm::dvec3& x, double t) {
+                                  const bool runs = steady || (t > 0.1 && t < 0.2);
+                                  return runs && glm::length(glm::dvec2(x.z, x.x) - middle) < 0.04
+                                             ? glm::dvec3(0.0, -2.0, 0.0)
+                                             : glm::dvec3(0.0);
+                              },
+                          .varies_in_time = !steady};
+            Driven driven(s);
+            int sudden = 0;
+            for (int i = 0; i < 30; ++i) {
+                driven.go_on({}, 0.01 * i, 0.01);
+                sudden += driven.is_sudden();
+            }
+            EXPECT_DOUBLE_EQ(driven.through_gaps_m_s(0.01), 6.0);
+            EXPECT_EQ(sudden, steady ? 0 : 2) << "as it begins and as it ends";
+        }
+}
+
+TEST(Driven, LooksAtAWallAsOftenAsItVaries) {
+    for (const bool in_space : {false, true})
+        for (const bool in_time : {false, true}) {
+            int looks = 0;
+            FluidSetup s = metre_of_fluid();
+            s.walls[0] = {.kind = WallKind::Inflow,
+                          .velocity_at =
+                              [&looks](const glm::dvec3&, double) {
+                                  ++looks;
+                                  return glm::dvec3(1.0, 0.0, 0.0);
+                              },
+                          .varies_in_space = in_space,
+                          .varies_in_time = in_time};
+            Driven driven(s);
+            const int faces = in_space ? 100 : 1;
+            EXPECT_EQ(looks, in_time ? 0 : faces);
+            driven.go_on({}, 0.0, 0.01);
+            EXPECT_EQ(looks, faces) << "the first step";
+            looks = 0;
+            for (int i = 1; i <= 4; ++i) driven.go_on({}, 0.01 * i, 0.01);
+            EXPECT_EQ(looks, in_time ? 4 * faces : 0);
+            EXPECT_DOUBLE_EQ(driven.lately_m_s(), 1.0);
+        }
+}
+
 TEST(Driven, KnowsNoSpeedOfFluidThatMayFallOutOfTheTank) {
     FluidSetup s = metre_of_fluid();
     s.gravity_m_s2 = {0.0, -9.81, 0.0};
