@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "firmware/haptic/dead_man.h"
 #include "firmware/haptic_study/paths.h"
 
 namespace eddy::haptic_study {
@@ -118,7 +119,9 @@ std::vector<Felt> fixed_there(StudyFluid& fluid, ForceLaw law, double rate_hz, s
     glm::dvec3 there_m(0.0);
     for (const Felt& tick : end) there_m += tick.position_m / static_cast<double>(end.size());
     Handle handle(Holder::Fixed, [=](Seconds) { return there_m; });
-    const Seconds duration(1e-3 * static_cast<double>(rested.size()));
+    // No longer, or the loop takes a handle that does not even tremble for one that nobody holds, and gives no force.
+    constexpr Seconds kStillHeld = DeadMan::kStillFor - Seconds(0.1);
+    const Seconds duration(std::min(1e-3 * static_cast<double>(rested.size()), kStillHeld.count()));
     return play(fluid, handle, {.law = law, .rate_hz = rate_hz, .duration = duration}).ticks;
 }
 

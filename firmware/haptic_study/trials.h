@@ -48,7 +48,7 @@ double pull_share(StudyFluid& fluid, double rate_hz);
 /// What the hand does and feels while it comes to rest: it has leapt by 20 mm, two seconds and a half before the end, or let the
 /// handle go at 0.13 m/s, 5.6 s before.
 std::vector<Felt> coming_to_rest(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder);
-/// The same of a handle that cannot move, where another came to rest in the end.
+/// What a handle feels that cannot move, where another came to rest in the end; for as long as the loop takes it for held.
 std::vector<Felt> fixed_there(StudyFluid& fluid, ForceLaw law, double rate_hz, std::span<const Felt> rested);
 /// What of that still swings in its last second.
 Swing swing_figures(std::span<const Felt> ticks);

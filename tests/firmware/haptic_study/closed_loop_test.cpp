@@ -82,6 +82,25 @@ TEST(ClosedLoop, WhatAFlowMakesOfAHandleIsItsForceOnThatHandlesMass) {
     EXPECT_LT(carried_figures(fixed, Holder::Arm).position_m, 0.4e-3);
 }
 
+TEST(ClosedLoop, AHandleFixedWhereAnotherCameToRestFeelsTheFlowThereToTheEnd) {
+    // Seven seconds of rest: the dead man's switch would let go of a handle that keeps so still.
+    const std::vector<Felt> rested(7000, Felt{{0.01, -0.02, 0.005}, {}});
+    KnownFluid jet({.drag_ns_m = 1.5, .added_kg = 0.07, .push_n = {0.8, 0.0, 0.0}});
+    const std::vector<Felt> fixed = fixed_there(jet, ForceLaw::Model, 50.0, rested);
+    ASSERT_GT(fixed.size(), 4000U);
+    EXPECT_LT(glm::distance(fixed.back().position_m, rested.back().position_m), 1e-9);
+    for (std::size_t i = fixed.size() - 2000; i < fixed.size(); ++i)
+        ASSERT_NEAR(fixed[i].force_n.x, 0.8, 0.016) << i;
+}
+
+TEST(ClosedLoop, RestIsAsStillAsANumberSaysOrAsTheFlowLets) {
+    EXPECT_TRUE(rests({.force_n = 0.049, .position_m = 0.9e-4}, {}));
+    EXPECT_FALSE(rests({.force_n = 0.051, .position_m = 0.0}, {}));
+    EXPECT_FALSE(rests({.force_n = 0.0, .position_m = 1.1e-4}, {}));
+    EXPECT_TRUE(rests({.force_n = 0.09, .position_m = 1.9e-3}, {.force_n = 0.05, .position_m = 1e-3}));
+    EXPECT_FALSE(rests({.force_n = 0.09, .position_m = 2.1e-3}, {.force_n = 0.05, .position_m = 1e-3}));
+}
+
 TEST(ClosedLoop, AtTwiceTheLimitTheFilterDrivesAHandleThatIsLetGo) {
     KnownFluid fluid(steepest(50.0, 2.0));
     EXPECT_GT(swing_figures(coming_to_rest(fluid, ForceLaw::Filter, 50.0, Holder::LetsGo)).force_n, 0.5);
