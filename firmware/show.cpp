@@ -236,9 +236,11 @@ void Show::publish(bool wait) {
         update_.add(result->loads[*held], step.dt_s, step.velocity_m_s, step.before_m_s);
         if (!step.answers || update_.seconds() == 0.0) continue;
         const UpdateAnswer update = std::exchange(update_, {});
-        const gles::Load load = handover_.hand_on(update.load(), step.pose_time);
-        // Over the mean velocity: what is taken to set the fluid around the body moving comes back when it stops.
-        received_j_ -= glm::dot(load.force_n, update.mean_velocity_m_s()) * update.seconds();
+        const gles::Load load = handover_.hand_on(
+            update.load(), {update.velocity_m_s(), update.acceleration_m_s2()}, step.pose_time);
+        // Over the mean velocity: what is taken to set the fluid around the body moving comes back when it stops. By the load
+        // of its own: what the handover adds for a while it never received.
+        received_j_ -= glm::dot(update.load().force_n, update.mean_velocity_m_s()) * update.seconds();
         const Instant computed_for = step.pose_time;
         answer_ = {.force_n = load.force_n,
                    .torque_nm = load.torque_nm,

@@ -9,9 +9,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A fluid step covers the time since the last one, but never more: after a stall the fluid loses time
-/// instead of leaping.
+/// A fluid step covers the time since the last one, but never more than this: after a stall the fluid loses time instead of
+/// leaping. Where steps take so long by habit, or the scene wants them so, it is no stall: the hand's body would never move.
 constexpr Seconds kLongestStep{0.1};
+constexpr double kOfTheUsual = 1.5;
 /// Of each stage's times; the page and the summary take their median.
 constexpr std::size_t kSamples = 200;
 /// While nothing moves the fluid is computed this often, to see whether that is still so.
@@ -127,7 +128,8 @@ void Act::go_on(Instant now, Seconds interval) {
     }
     rest_ends_ = now + kRestPeriod;
     const QualityControl::Interval since_last{interval, elsewhere, steps_};
-    fluid_update(now, std::min(interval, kLongestStep));
+    const double usual_s = std::max(scene_.solver.dt_s, show_.figures().fluid_period_s);
+    fluid_update(now, std::min(interval, std::max(kLongestStep, Seconds(kOfTheUsual * usual_s))));
     give_force_back();
     if (const auto change = quality_.update(now, since_last, show_.pose().buttons))
         change_quality(*change, now);

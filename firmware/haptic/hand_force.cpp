@@ -22,8 +22,13 @@ glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const H
     if (law_ == ForceLaw::Filter) return filter_(gain * fluid.force_n, fluid.fluid_period, dt);
 
     follow(hand, scale, dt);
-    if (fresh) hear(fluid, gain, scale);
-    model_.follow(dt);
+    // Slopes are those of the tank; the handle moves 1 / scale as far, and feels gain times as much.
+    const double at_handle = gain * scale;
+    const SlopeBounds bounds = at_handle > 0.0 ? SlopeBounds{most_drag_ns_m(fluid.fluid_period) / at_handle,
+                                                             kMostAddedKg / at_handle}
+                                               : SlopeBounds{};
+    if (fresh) hear(fluid, bounds, gain / scale);
+    model_.follow(dt, bounds);
     const glm::dvec3 unexplained_n =
         fluid.force_n - model_.force_n(fluid.velocity_m_s, fluid.acceleration_m_s2);
     const EnergyMatch::Shares shares = match_.follow(model_.drag_ns_m(), model_.added_kg(), dt);
@@ -63,15 +68,10 @@ void HandForce::follow(const HandAtTick& hand, double scale, Seconds dt) {
     passivity_.moved_to(handle_m, hand.now);
 }
 
-/// Slopes and energies of the fluid are those of the tank; the handle moves 1 / scale as far, and feels gain times as much.
-void HandForce::hear(const FluidSnapshot& fluid, double gain, double scale) {
-    const double at_handle = gain * scale;
-    const SlopeBounds bounds = at_handle > 0.0 ? SlopeBounds{most_drag_ns_m(fluid.fluid_period) / at_handle,
-                                                             kMostAddedKg / at_handle}
-                                               : SlopeBounds{};
+void HandForce::hear(const FluidSnapshot& fluid, const SlopeBounds& bounds, double energy_at_handle) {
     model_.learn({fluid.force_n, fluid.velocity_m_s, fluid.acceleration_m_s2}, fluid.fluid_period, bounds);
-    passivity_.received((fluid.received_j - received_j_) * gain / scale, fluid.stored_j * gain / scale,
-                        fluid.computed_for);
+    passivity_.received((fluid.received_j - received_j_) * energy_at_handle,
+                        fluid.stored_j * energy_at_handle, fluid.computed_for);
     received_j_ = fluid.received_j;
 }
 

@@ -37,7 +37,7 @@ class HandForce {
     const ForceReport& report() const { return report_; }
 
   private:
-    void hear(const FluidSnapshot& fluid, double gain, double scale);
+    void hear(const FluidSnapshot& fluid, const SlopeBounds& bounds, double energy_at_handle);
     void follow(const HandAtTick& hand, double scale, Seconds dt);
 
     ForceLaw law_ = ForceLaw::Model;

@@ -83,10 +83,10 @@ void LocalModel::solve(const SlopeBounds& bounds) {
     explained_ = std::clamp(1.0 - fit.left_over({found_drag_ns_m_, found_added_kg_}) / fit.yy, 0.0, 1.0);
 }
 
-void LocalModel::follow(Seconds dt) {
+void LocalModel::follow(Seconds dt, const SlopeBounds& bounds) {
     const double share = dt.count() > 0.0 ? -std::expm1(-dt / kFollow) : 0.0;
-    drag_ns_m_ += share * (found_drag_ns_m_ - drag_ns_m_);
-    added_kg_ += share * (found_added_kg_ - added_kg_);
+    drag_ns_m_ = std::min(drag_ns_m_ + share * (found_drag_ns_m_ - drag_ns_m_), bounds.drag_ns_m);
+    added_kg_ = std::min(added_kg_ + share * (found_added_kg_ - added_kg_), bounds.added_kg);
 }
 
 }  // namespace eddy

@@ -32,8 +32,8 @@ class LocalModel {
 
     /// A new answer, `period` after the last.
     void learn(const FluidAnswer& answer, Seconds period, const SlopeBounds& bounds);
-    /// A tick.
-    void follow(Seconds dt);
+    /// A tick. Whatever was found: no slope is beyond these bounds, which another gain may have narrowed.
+    void follow(Seconds dt, const SlopeBounds& bounds);
     /// Nothing is known any more.
     void forget() { *this = LocalModel{}; }
 

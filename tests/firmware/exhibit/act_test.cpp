@@ -56,13 +56,13 @@ class ActTest : public gles::GlTest {
 
     Act act(const std::string& density_kg_m3) { return {gpu, tank(density_kg_m3), hand.exchange(), {}}; }
 
-    void play(Act& act, Instant how_long) {
+    void play(Act& act, Instant how_long, Instant period = 20ms) {
         ticks.clear();
         for (const Instant end = now + how_long; now < end; now += kTick) {
             hand.tick(now);
-            if ((now / kTick) % 20 != 0) continue;
+            if (now % period != Instant(0)) continue;
             act.publish(act.show().figures().steps > 0);
-            act.go_on(now, 20ms);
+            act.go_on(now, period);
             hand.follow([&](auto part) { ticks.insert(ticks.end(), part.begin(), part.end()); });
         }
     }
@@ -93,6 +93,23 @@ TEST_F(ActTest, GivesNoForceBeforeItsFluidHasAnswered) {
     EXPECT_FALSE(hand.exchange().orders.newest().enabled);
     play(first, 100ms);
     EXPECT_TRUE(hand.exchange().orders.newest().enabled);
+}
+
+TEST_F(ActTest, ABodyIsMovedHoweverSlowTheMachineIsAndHoweverLongTheScenesSteps) {
+    for (const Instant period : {200ms, 300ms}) {
+        Scene scene = tank("1000");
+        if (period == 300ms) scene.solver.dt_s = 0.3;
+        Act act(gpu, scene, hand.exchange(), {});
+        make_ready(act);
+        act.begin(hand.orders());
+        play(act, 1800ms, period);
+        int moves = 0;
+        for (int n = 0; n < 10; ++n) {
+            play(act, period, period);
+            moves += glm::length(act.show().bodies().front().velocity_m_s) > 0.0;
+        }
+        EXPECT_EQ(moves, 10) << period / 1ms << " ms";
+    }
 }
 
 class StillActTest : public ActTest {

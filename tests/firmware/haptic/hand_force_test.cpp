@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "firmware/haptic/soft_wall.h"
+#include "firmware/haptic/stability_limits.h"
 
 namespace eddy {
 namespace {
@@ -59,12 +60,10 @@ struct Stirred {
             body_m = scale * at(t);
             velocity_m_s = velocity;
         }
-        return force(answer, fresh, orders,
-                     {.now = milliseconds(ms),
-                      .known = true,
-                      .moved_at = milliseconds(ms),
-                      .body_m = scale * at(t)},
-                     Seconds(1e-3));
+        return force(
+            answer, fresh, orders,
+            {.now = milliseconds(ms), .known = true, .moved_at = milliseconds(ms), .body_m = scale * at(t)},
+            Seconds(1e-3));
     }
     /// rms of (force - exact) / rms of exact, over the last of so many seconds.
     double error(int seconds) {
@@ -109,6 +108,18 @@ TEST(HandForce, WhereNothingIsKnownItIsTheFilterExactly) {
     model.radius_m = filter.radius_m = 0.0;
     model.push_n = filter.push_n = {0.3, 0.0, 0.0};
     for (int ms = 0; ms < 500; ++ms) EXPECT_EQ(model.tick(ms), filter.tick(ms));
+}
+
+TEST(HandForce, SlopesInUseAreWithinWhatTheHandBearsWhateverTheGainBecomes) {
+    Stirred model(ForceLaw::Model);
+    model.error(3);
+    ASSERT_NEAR(model.force.report().drag_ns_m, kDragNsM, 0.02);
+    model.orders.gain *= 50.0;
+    for (int ms = 3000; ms < 3200; ++ms) {
+        model.tick(ms);
+        ASSERT_LE(model.force.report().drag_ns_m, most_drag_ns_m(Seconds(0.02)) * (1.0 + 1e-12)) << ms;
+        ASSERT_LE(model.force.report().added_kg, kMostAddedKg * (1.0 + 1e-12)) << ms;
+    }
 }
 
 TEST(HandForce, GentleStirringIsNotDampedOnceItIsKnown) {

@@ -37,7 +37,7 @@ struct KnownFluid {
         LocalModel model;
         for (int n = 1; n * period_s < seconds; ++n) {
             model.learn(answer(n), Seconds(period_s), bounds);
-            model.follow(Seconds(period_s));
+            model.follow(Seconds(period_s), bounds);
         }
         return model;
     }
@@ -116,7 +116,7 @@ TEST(LocalModel, WhatWasKnownIsForgottenWhenForcesScatterInstead) {
     ASSERT_NEAR(model.drag_ns_m(), 3.0, 0.01);
     for (int n = 0; n < 500; ++n) {  // 10 s at rest in a stream that flutters
         model.learn({.force_n = {std::sin(1.7 * n), std::cos(2.3 * n), 0.0}}, Seconds(0.02), kWide);
-        model.follow(Seconds(0.02));
+        model.follow(Seconds(0.02), kWide);
     }
     EXPECT_LT(model.drag_ns_m(), 0.15);
     EXPECT_LT(model.added_kg(), 0.005);
@@ -131,7 +131,7 @@ TEST(LocalModel, ScatterThatHasNothingToDoWithTheMotionGivesNoSlope) {
                      .velocity_m_s = 0.01 * glm::dvec3(std::cos(w * n), std::sin(w * n), 0.0),
                      .acceleration_m_s2 = 0.06 * glm::dvec3(-std::sin(w * n), std::cos(w * n), 0.0)},
                     Seconds(0.02), kWide);
-        model.follow(Seconds(0.02));
+        model.follow(Seconds(0.02), kWide);
         most = std::max(most, model.drag_ns_m());
     }
     EXPECT_LT(most, 5.0);  // least squares without a prior go to several times kWide
@@ -142,7 +142,7 @@ TEST(LocalModel, AnAnswerThatIsNotFiniteIsNotLearnt) {
     LocalModel model = KnownFluid{}.learnt(3.0);
     const double drag = model.drag_ns_m();
     model.learn({.force_n = glm::dvec3(std::nan(""))}, Seconds(0.02), kWide);
-    model.follow(Seconds(0.02));
+    model.follow(Seconds(0.02), kWide);
     EXPECT_NEAR(model.drag_ns_m(), drag, 0.01);
 }
 

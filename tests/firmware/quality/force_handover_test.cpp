@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace eddy {
 namespace {
+
+const ForceHandover::Motion kStill;
 
 gles::Load load(double x) {
     return {{x, 0.0, 0.0}, {0.0, 2.0 * x, 0.0}};
@@ -14,27 +17,27 @@ gles::Load load(double x) {
 TEST(ForceHandover, PassesOnWhatItGetsWhenNothingChanges) {
     ForceHandover handover;
     for (int n = 0; n < 100; ++n)
-        EXPECT_EQ(handover.hand_on(load(std::sin(n)), Seconds(0.02 * n)).force_n.x, std::sin(n));
+        EXPECT_EQ(handover.hand_on(load(std::sin(n)), kStill, Seconds(0.02 * n)).force_n.x, std::sin(n));
 }
 
 TEST(ForceHandover, LastForceStandsUntilTheNewFluidHasSettledAndTheFadeBeginsThere) {
     ForceHandover handover;
-    handover.hand_on(load(3.0), Seconds(1.0));
+    handover.hand_on(load(3.0), kStill, Seconds(1.0));
     handover.begin();
     for (int n = 0; n < ForceHandover::kSettling; ++n)
-        EXPECT_EQ(handover.hand_on(load(100.0 * n), Seconds(1.02 + 0.02 * n)).force_n.x, 3.0);
-    const gles::Load first = handover.hand_on(load(-5.0), Seconds(1.1));
+        EXPECT_EQ(handover.hand_on(load(100.0 * n), kStill, Seconds(1.02 + 0.02 * n)).force_n.x, 3.0);
+    const gles::Load first = handover.hand_on(load(-5.0), kStill, Seconds(1.1));
     EXPECT_DOUBLE_EQ(first.force_n.x, 3.0);
     EXPECT_DOUBLE_EQ(first.torque_nm.y, 6.0);
 }
 
 TEST(ForceHandover, EndsAtTheNewForceAfterHalfASecondAndHasNoStepOnItsWay) {
     ForceHandover handover;
-    handover.hand_on(load(3.0), Seconds(0.0));
+    handover.hand_on(load(3.0), kStill, Seconds(0.0));
     handover.begin();
     double last = 3.0, most = 0.0;
     for (int n = 1; n <= 60; ++n) {
-        const double now = handover.hand_on(load(-5.0), Seconds(0.01 * n)).force_n.x;
+        const double now = handover.hand_on(load(-5.0), kStill, Seconds(0.01 * n)).force_n.x;
         most = std::max(most, std::abs(now - last));
         last = now;
     }
@@ -44,15 +47,36 @@ TEST(ForceHandover, EndsAtTheNewForceAfterHalfASecondAndHasNoStepOnItsWay) {
 
 TEST(ForceHandover, MayBeginAgainBeforeItHasEnded) {
     ForceHandover handover;
-    handover.hand_on(load(1.0), Seconds(0.0));
+    handover.hand_on(load(1.0), kStill, Seconds(0.0));
     handover.begin();
     double before = 0.0;
-    for (int n = 1; n <= 10; ++n) before = handover.hand_on(load(2.0), Seconds(0.02 * n)).force_n.x;
+    for (int n = 1; n <= 10; ++n) before = handover.hand_on(load(2.0), kStill, Seconds(0.02 * n)).force_n.x;
     EXPECT_GT(before, 1.0);
     EXPECT_LT(before, 2.0);
     handover.begin();
     for (int n = 11; n <= 11 + ForceHandover::kSettling; ++n)
-        EXPECT_DOUBLE_EQ(handover.hand_on(load(-7.0), Seconds(0.02 * n)).force_n.x, before);
+        EXPECT_DOUBLE_EQ(handover.hand_on(load(-7.0), kStill, Seconds(0.02 * n)).force_n.x, before);
+}
+
+TEST(ForceHandover, AHandThatTurnsMeanwhileIsNoDifferenceBetweenFluids) {
+    // Two settings of one fluid, alike but for 2 % of the drag, and a hand that stirs twice a second: they come to 0.4 N.
+    for (const double phase : {0.0, 1.0, 2.0, 3.0}) {
+        ForceHandover handover;
+        double most_off = 0.0;
+        for (int n = 0; n < 150; ++n) {
+            const double t = 0.02 * n, w = 4.0 * std::acos(-1.0), x = w * t + phase;
+            const ForceHandover::Motion motion{{0.2 * std::cos(x), 0.0, 0.0},
+                                               {-0.2 * w * std::sin(x), 0.0, 0.0}};
+            const auto force_n = [&](double drag) {
+                return 0.3 - drag * motion.velocity_m_s.x - 0.1 * motion.acceleration_m_s2.x;
+            };
+            if (n == 75) handover.begin();
+            const double got =
+                handover.hand_on(load(force_n(n < 75 ? 2.0 : 2.04)), motion, Seconds(t)).force_n.x;
+            most_off = std::max(most_off, std::abs(got - force_n(2.0)));
+        }
+        EXPECT_LT(most_off, 0.02) << phase;
+    }
 }
 
 TEST(ForceHandover, ForceThatIsNoNumberGoesThroughAndLeavesNoTrace) {
@@ -61,7 +85,8 @@ TEST(ForceHandover, ForceThatIsNoNumberGoesThroughAndLeavesNoTrace) {
         ForceHandover handover;
         for (int n = 0; n < 40; ++n) {
             if (n == 4) handover.begin();
-            const double force = handover.hand_on(load(n == when ? none : 1.0), Seconds(0.02 * n)).force_n.x;
+            const double force =
+                handover.hand_on(load(n == when ? none : 1.0), kStill, Seconds(0.02 * n)).force_n.x;
             EXPECT_EQ(std::isnan(force), n == when) << "step " << n << ", none at " << when;
         }
     }
@@ -70,7 +95,7 @@ TEST(ForceHandover, ForceThatIsNoNumberGoesThroughAndLeavesNoTrace) {
 TEST(ForceHandover, FirstForceOfAllIsNotFadedIn) {
     ForceHandover handover;
     handover.begin();
-    EXPECT_EQ(handover.hand_on(load(4.0), Seconds(0.0)).force_n.x, 4.0);
+    EXPECT_EQ(handover.hand_on(load(4.0), kStill, Seconds(0.0)).force_n.x, 4.0);
 }
 
 }  // namespace
