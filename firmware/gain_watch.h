@@ -13,9 +13,9 @@ class GainWatch {
 
     /// What the fluid of the scene does to its body.
     void learn(const FluidSlopes& slopes) { slopes_ = slopes; }
-    /// With the measured time between answers. Whether the gain is another now: it follows in steps of a tenth, each of which
-    /// the hand hardly feels.
-    bool see(Seconds fluid_period);
+    /// With the measured time between answers, and from a pose to the answer to it. Whether the gain is another now: it
+    /// follows in steps of a tenth, each of which the hand hardly feels.
+    bool see(Seconds fluid_period, Seconds lateness = Seconds(0.0));
 
     double gain() const { return gain_.value_or(scene_gain_); }
     long changes() const { return changes_; }  ///< since the first
@@ -25,7 +25,7 @@ class GainWatch {
   private:
     double scene_gain_, scale_;
     FluidSlopes slopes_{};
-    Seconds period_{0.0};
+    Seconds period_{0.0}, lateness_{0.0};
     std::optional<double> gain_;
     long changes_ = 0;
     bool told_ = false;

@@ -17,17 +17,18 @@ class RestWatch {
   public:
     /// It takes this long.
     static constexpr Seconds kQuietFor{5.0};
-    /// Less than this is no movement of the hand: what encoders and a resting arm do.
+    /// Less than this is no movement of the handle: what encoders and a resting arm do.
     static constexpr double kStill_m = 0.5e-3;
     /// A fluid that takes longer than this to cross the tank is still.
     static constexpr Seconds kStillCrossing{100.0};
 
-    /// `tank_m`: its longest side.
-    explicit RestWatch(double tank_m) : still_m_s_(tank_m / kStillCrossing.count()) {}
+    /// `tank_m`: its longest side; `scale`: how far a hand goes in it when the handle goes 1.
+    explicit RestWatch(double tank_m, double scale = 1.0)
+        : still_m_s_(tank_m / kStillCrossing.count()), still_m_(scale * kStill_m) {}
 
     /// Before each update: where the hand is, if anywhere, and its buttons.
     void see(Instant now, const std::optional<glm::dvec3>& hand_m, std::uint8_t buttons);
-    /// When it was measured: the greatest of the fluid's (root mean square) and the bodies' speeds. Nothing known yet counts as
+    /// When it was measured: the greatest speed, root mean square of the fluid. Nothing known yet counts as
     /// moving.
     void all_moves_at(double speed_m_s) { still_ = speed_m_s <= still_m_s_; }
 
@@ -38,7 +39,7 @@ class RestWatch {
     bool may_rest() const { return nobody_here() && now_ - fluid_moved_ >= kQuietFor; }
 
   private:
-    double still_m_s_;
+    double still_m_s_, still_m_;
     bool still_ = false;
     std::optional<glm::dvec3> at_;
     std::uint8_t buttons_ = 0;

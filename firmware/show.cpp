@@ -6,7 +6,6 @@
 
 #include "firmware/fluid_setup.h"
 #include "gles/body/bounds.h"
-#include "gles/readback.h"
 
 namespace eddy {
 namespace {
@@ -17,6 +16,9 @@ constexpr double kWallGapCells = 1.5;
 constexpr double kPeriodMemory = 8.0;
 /// More than this between two updates is no period of the fluid: it stood still, for a night or for a shader.
 constexpr double kLongestPeriodS = 1.0;
+/// Steps of the GPU's queue whose answers are not in yet when another begins: one that it works on and one that waits. More make
+/// nothing faster, and each answer a step later.
+constexpr std::size_t kMostUnderWay = 2;
 /// Steps that an update takes at most.
 constexpr double kMostParts = 4.0;
 /// A hand that moves faster than this was not followed by the device. The gate cuts the force off from 1 m/s on; hands that
@@ -156,8 +158,8 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     const bool leaps = follows && glm::length(to - from) > fastest_m_s * dt.count();  // guard hand_leap
     if (leaps) ++figures_.placed;
     for (int n = 1; n <= parts; ++n) {
-        // A GPU that is slower than the clock would have each step drop the oldest answer, just as it is done.
-        if (under_way_.size() >= gles::Readback::kMost) publish(true);
+        // A GPU that is slower than the clock would have each step drop the oldest answer, just as it is done (gles/readback.h).
+        if (under_way_.size() >= kMostUnderWay) publish(true);
         time_s_ += part.count();
         states_ = motions_.at(time_s_, part.count());
         if (held) {

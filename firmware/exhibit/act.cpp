@@ -17,6 +17,8 @@ constexpr double kOfTheUsual = 1.5;
 constexpr std::size_t kSamples = 200;
 /// While nothing moves the fluid is computed this often, to see whether that is still so.
 constexpr Instant kRestPeriod = 500ms;
+/// How much more of a body's movement is seen than of as fast a fluid: one that sinks in thick fluid goes so slowly.
+constexpr double kOfBodies = 10.0;
 
 double longest_side_m(const Scene& scene) {
     const glm::dvec3& size_m = scene.tank.size_m;
@@ -32,7 +34,7 @@ Act::Act(gles::Gpu& gpu, const Scene& scene, HapticExchange& exchange, Setup set
       quality_(gpu, scene, setup_.quality),
       show_(gpu, scene, exchange, quality_.first()),
       stopwatch_(gpu),
-      watch_(longest_side_m(scene)),
+      watch_(longest_side_m(scene), scene.haptics.workspace_scale),
       moves_by_itself_(moves_by_itself(scene)),
       views_(gpu, scene, setup_.shows_cost),
       gain_(scene.haptics.gain, scene.haptics.workspace_scale) {
@@ -118,7 +120,7 @@ void Act::go_on(Instant now, Seconds interval) {
     watch_hand(now);
     if (auto speed_m_s = show_.figures().fluid_speed_m_s; speed_m_s && !moves_by_itself_) {
         for (const gles::BodyState& body : show_.bodies())
-            speed_m_s = std::max(*speed_m_s, glm::length(body.velocity_m_s));
+            speed_m_s = std::max(*speed_m_s, kOfBodies * glm::length(body.velocity_m_s));
         watch_.all_moves_at(*speed_m_s);
     }
     if (watch_.nobody_here()) beside_the_fluid([&] { use_the_quiet(now); });
@@ -187,9 +189,9 @@ const gles::Renderer& Act::draw(Instant now, const std::string& caption) {
     return view.renderer();
 }
 
-void Act::adjust_gain() {
+void Act::adjust_gain(const LoopReport& report) {
     if (!setup_.has_hand || show_.figures().steps == 0) return;
-    if (gain_.see(Seconds(show_.figures().fluid_period_s))) give_orders();
+    if (gain_.see(Seconds(show_.figures().fluid_period_s), report.fluid_lateness)) give_orders();
     if (const auto news = gain_.news()) news_.push_back(*news);
 }
 

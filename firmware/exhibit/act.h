@@ -51,8 +51,8 @@ class Act {
     void publish(bool wait);
     /// Draws the fluid as it is now, with a sentence under it, if any.
     const gles::Renderer& draw(Instant now, const std::string& caption = {});
-    /// The gain follows the rate at which the fluid answers.
-    void adjust_gain();
+    /// The gain follows the rate at which the fluid answers, and how late the loop has the answers.
+    void adjust_gain(const LoopReport& report);
     /// Releases a latch whose cause is gone; a fluid that gave no numbers begins anew first.
     void release_latch(Instant now, const LoopReport& report);
     void show_cost(bool shown) { views_.show_cost(shown); }

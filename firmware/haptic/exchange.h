@@ -56,6 +56,8 @@ struct LoopReport {
     std::uint64_t late = 0;    ///< ticks that began more than kLate after they were due
     std::uint64_t missed = 0;  ///< ticks left out because their time had passed
     Instant worst_late{0};
+    Seconds fluid_lateness{
+        0.0};  ///< from a pose to the tick that has the fluid's answer to it, over some eight answers
     std::uint64_t impulses = 0;  ///< ticks whose raw force was limited before the filter
     ForceReport force{};
     GateCounters gate{};

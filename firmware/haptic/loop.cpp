@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace eddy {
+namespace {
+
+/// How late the fluid's answers are is smoothed over about so many.
+constexpr double kLatenessMemory = 8.0;
+
+}  // namespace
 
 HapticLoop::HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace& trace,
                        const HapticLoopSettings& settings, FlightRecorder* flights,
@@ -48,6 +54,9 @@ void HapticLoop::tick(Instant now) {
                  .reason = out.reason,
                  .buttons = out.pose.buttons});
     ++report_.ticks;
+    if (in.fluid.sequence != 0 && out.fluid_age == Instant(0))  // it has just come
+        report_.fluid_lateness +=
+            (Seconds(now - in.fluid.computed_for) - report_.fluid_lateness) / kLatenessMemory;
     report_.impulses = state_.law.force.impulses();
     report_.force = state_.law.force.report();
     report_.gate = state_.law.gate.counters();

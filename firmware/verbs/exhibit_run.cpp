@@ -341,7 +341,7 @@ void ExhibitRun::heed_panel(Instant now) {
 
 void ExhibitRun::heed_hand(Instant now) {
     if (!front_->plays()) return;
-    front_->act().adjust_gain();
+    front_->act().adjust_gain(hand_->report());
     front_->act().release_latch(now, hand_->report());
 }
 

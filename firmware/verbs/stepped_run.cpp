@@ -53,7 +53,7 @@ int run_stepped(const RunOptions& options) {
     const RealClock wall;
     Progress progress("run");
     const auto report = [&](Instant now) {
-        act.adjust_gain();
+        act.adjust_gain(hand.report());
         for (const std::string& line : act.news()) fmt::print(stderr, "run: {}\n", line);
         act.release_latch(now, hand.report());
         progress.show(Seconds(now).count(), *options.seconds,

@@ -1,5 +1,6 @@
 #include "firmware/gain_watch.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,6 +67,15 @@ TEST(GainWatch, AFluidThatSlowsDownTakesTheGainWithItStepByStepAndIsSaidOnce) {
     EXPECT_FALSE(watch.news());
     for (int i = 0; i < 20; ++i) watch.see(kUsual);
     EXPECT_EQ(watch.gain(), 1000.0);
+}
+
+TEST(GainWatch, AnswersThatComeLateCountAsIfTheyCameSeldom) {
+    GainWatch watch(1000.0, 1.0);
+    watch.learn({.drag_ns_m = 3e-3, .added_kg = 0.0});
+    watch.see(kUsual);
+    for (int i = 0; i < 20; ++i) watch.see(kUsual, Seconds(0.05));
+    EXPECT_NEAR(watch.gain(), 500.0, 50.0);
+    EXPECT_THAT(watch.news().value_or(""), testing::HasSubstr("50 answers a second, 50 ms after the hand"));
 }
 
 }  // namespace

@@ -76,5 +76,27 @@ TEST(RestWatch, FluidOfWhichNothingIsKnownCountsAsMoving) {
     EXPECT_FALSE(watch.may_rest());
 }
 
+TEST(RestWatch, WhatIsNoMovementIsJudgedAtTheHandle) {
+    RestWatch watch(kTank, 4.0);
+    watch.all_moves_at(kSlow);
+    for (Instant t = 0s; t <= 20s; t += 20ms) watch.see(t, kPlace, 0);
+    watch.see(20020ms, kPlace + glm::dvec3(0.0015, 0.0, 0.0), 0);
+    EXPECT_TRUE(watch.may_rest()) << "0.4 mm of the handle";
+    watch.see(20040ms, kPlace + glm::dvec3(0.0025, 0.0, 0.0), 0);
+    EXPECT_FALSE(watch.may_rest());
+}
+
+TEST(RestWatch, WarmOrHeavyFluidIsNeverLeftAlone) {
+    Scene scene;
+    scene.smoke.emplace();
+    scene.temperature.emplace();
+    EXPECT_FALSE(moves_by_itself(scene));
+    scene.smoke->weight = -0.1;
+    EXPECT_TRUE(moves_by_itself(scene));
+    scene.smoke.reset();
+    scene.temperature->expansion_1_k = 0.003;
+    EXPECT_TRUE(moves_by_itself(scene));
+}
+
 }  // namespace
 }  // namespace eddy

@@ -127,6 +127,20 @@ TEST(HapticLoop, RecordsEveryTickAsItHappened) {
     EXPECT_EQ(ticks.back().sent_force_n, rig.device.commanded_n);
 }
 
+TEST(HapticLoop, ReportsHowLateTheFluidsAnswersAre) {
+    for (const int late_ms : {5, 45}) {
+        Rig rig;
+        for (int i = 1; i <= 1000; ++i) {
+            if (i % 20 == 1)
+                rig.exchange.fluid.publish({.sequence = ++rig.sequence,
+                                            .computed_for = milliseconds(i - late_ms),
+                                            .fluid_period = Seconds(0.020)});
+            rig.loop.tick(milliseconds(i));
+        }
+        EXPECT_NEAR(rig.exchange.report.newest().fluid_lateness.count(), 1e-3 * late_ms, 1e-4);
+    }
+}
+
 TEST(HapticLoop, ReportsItselfForTheStatusPage) {
     Rig rig;
     rig.run(50);
