@@ -1,5 +1,6 @@
 #pragma once
 #include "config/scene.h"
+#include "gles/body/bounds.h"
 #include "gles/fluid/fluid.h"
 #include "hal/clock.h"
 
@@ -11,9 +12,10 @@ struct FluidSlopes {
     double added_kg = 0.0;
 };
 
-/// Found by moving the held body of the scene in its fluid, which must be at its start and is left anywhere else. Nothing is held:
-/// all 0.
-FluidSlopes measure_slopes(gles::Fluid& fluid, const Scene& scene);
+/// Found by moving the held body of the scene in its fluid, which must be at its start and is left anywhere else: where the handle's
+/// middle is if that is away from other bodies, and never beyond `room`, where its centre may be [m]. Nothing is held, or it has no
+/// room: all 0.
+FluidSlopes measure_slopes(gles::Fluid& fluid, const Scene& scene, const gles::Extent& room);
 
 /// The newtons on the hand per newton on the body that the loop stands, whoever holds the handle, when the fluid answers so often
 /// (haptic/stability_limits.h). Infinite for a fluid that does not resist.

@@ -99,7 +99,7 @@ void Show::warm_up(const std::vector<Quality>& qualities) {
 
 FluidSlopes Show::slopes() {
     fluid_->reset();
-    const FluidSlopes slopes = measure_slopes(*fluid_, scene_);
+    const FluidSlopes slopes = measure_slopes(*fluid_, scene_, room_);
     fluid_->reset();
     return slopes;
 }
