@@ -14,12 +14,17 @@ ForceGate::ForceGate(const GateLimits& limits)
 
 glm::dvec3 ForceGate::operator()(const GateInput& in, Seconds dt) {
     if (!(dt.count() > 0.0)) dt = Seconds{0.0};
+    const bool went_stale = reason_ != GateReason::FluidStale;
     reason_ = judge(in);
     switch (reason_) {
         case GateReason::Open:
         case GateReason::Starting:
             return sent_n_ = follow(in, std::min(dt, kLongestRise));
         case GateReason::FluidStale:
+            if (went_stale) {
+                stale_for_ = Seconds(0.0);
+                had_ = std::max(had_, strength_);
+            }
             return sent_n_ = fade(dt);
         case GateReason::TooFast:
         case GateReason::Released:
@@ -31,6 +36,7 @@ glm::dvec3 ForceGate::operator()(const GateInput& in, Seconds dt) {
             break;
     }
     strength_ = 0.0;
+    had_ = 0.0;
     return sent_n_ = glm::dvec3(0.0);
 }
 
@@ -54,6 +60,8 @@ GateReason ForceGate::judge(const GateInput& in) {
 glm::dvec3 ForceGate::fade(Seconds dt) {
     const double rounding = 1e-9;  // 400 subtractions of 1/400 miss zero by 1e-14
     const double before = strength_;
+    stale_for_ += dt;
+    if (stale_for_ > kHiccup) had_ = 0.0;
     strength_ -= dt / kFade;
     if (strength_ < rounding) strength_ = 0.0;
     return before > 0.0 ? sent_n_ * (strength_ / before) : glm::dvec3(0.0);
@@ -64,7 +72,7 @@ glm::dvec3 ForceGate::follow(const GateInput& in, Seconds dt) {
     const glm::dvec3 clamped = shorten(in.force_n, most_n);
     if (clamped != in.force_n) ++counters_.clamped;
 
-    strength_ = std::min(1.0, strength_ + dt / kSoftStart);
+    strength_ = std::min(1.0, strength_ + dt / (strength_ < had_ ? kQuickReturn : kSoftStart));
     const glm::dvec3 step = strength_ * clamped - sent_n_;
     const glm::dvec3 allowed = shorten(step, limits_.slew_n_per_s * dt.count());
     if (allowed != step) ++counters_.slewed;

@@ -53,6 +53,9 @@ inline constexpr double kDeviceMaxForceN = 8.0;
 inline constexpr double kFastestHandMS = 1.0;
 inline constexpr Seconds kSoftStart{1.0};
 inline constexpr Seconds kFade{0.040};  ///< of a force that nobody computes any more (law.h)
+/// A fluid that was silent for no longer than this was late, not dead (a picture that took 100 ms): its force fades as any does,
+/// and is back where it was so soon. Over kSoftStart a machine that is late twice a second would never have it whole.
+inline constexpr Seconds kHiccup{0.100}, kQuickReturn{0.150};
 /// Motors hold the last force while a tick is late; the first tick after must not spend the whole gap in one
 /// step.
 inline constexpr Seconds kLongestRise{0.005};
@@ -81,7 +84,7 @@ struct GateCounters {
 
 /// The only way to the motors. What comes out is finite, no longer than max_force_n, and moves no faster than
 /// slew_n_per_s except towards zero: at once for a fault, in at most kFade for a stale fluid. After any zero
-/// it returns over kSoftStart.
+/// it returns over kSoftStart, after a hiccup of the fluid over kQuickReturn.
 class ForceGate {
   public:
     ForceGate() = default;
@@ -100,7 +103,9 @@ class ForceGate {
     GateLimits limits_{};
     GateReason latch_ = GateReason::Open;  // DeviceSilent or NotFinite once seen
     GateReason reason_ = GateReason::Disabled;
-    double strength_ = 0.0;   // 0 shut .. 1 open: rises over kSoftStart, falls over kFade
+    double strength_ = 0.0;   // 0 shut .. 1 open: rises over kSoftStart or kQuickReturn, falls over kFade
+    double had_ = 0.0;        // before a stale fluid took it, if that was a hiccup
+    Seconds stale_for_{0.0};
     glm::dvec3 sent_n_{0.0};  // last tick's output
     GateCounters counters_{};
 };

@@ -27,10 +27,9 @@ PoseSnapshot pose_in_tank(const LawState& state, const HapticInput& in, bool kno
 
 /// Age counts from arrival, not from computed_for: solving and reading back take two fluid periods of their
 /// own, and a fluid that answers steadily, however late, is alive.
-bool is_stale(const FluidSnapshot& fluid, Instant age, Seconds longest_gap) {
+bool is_stale(const FluidSnapshot& fluid, Instant age) {
     const Seconds periods = kFluidPeriodsAllowed * fluid.fluid_period;
-    const Seconds least = std::max(kFluidTimeout, kGapsAllowed * longest_gap);
-    const Seconds allowed = std::isfinite(periods.count()) ? std::max(least, periods) : least;
+    const Seconds allowed = std::isfinite(periods.count()) ? std::max(kFluidTimeout, periods) : kFluidTimeout;
     // guard stale_force
     return fluid.sequence == 0 || Seconds(age) > allowed;
 }
@@ -60,9 +59,6 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
     // The fluid's newest answer, held until the next.
     const bool fresh = in.fluid.sequence != state.fluid_sequence;
     if (fresh) {
-        const Seconds gap = in.now - state.fluid_arrived;
-        state.longest_gap *= std::exp2(-gap / kGapForgottenIn);
-        if (gap <= kLongestGap) state.longest_gap = std::max(state.longest_gap, gap);
         state.fluid_sequence = in.fluid.sequence;
         state.fluid_arrived = in.now;
     }
@@ -85,7 +81,7 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
                          .enabled = in.orders.enabled,
                          .device_ready = ready,
                          .device_silent = silent,
-                         .fluid_stale = is_stale(in.fluid, out.fluid_age, state.longest_gap),
+                         .fluid_stale = is_stale(in.fluid, out.fluid_age),
                          .reset = reset};
     out.force_n = state.gate(gate, dt);
     out.reason = state.gate.reason();

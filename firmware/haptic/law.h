@@ -16,11 +16,6 @@ inline constexpr Seconds kReplyTimeout{0.020};
 /// due, at 75 within 100 ms of the last.
 inline constexpr Seconds kFluidTimeout{0.050};
 inline constexpr double kFluidPeriodsAllowed = 4.0;
-/// A fluid that now and then answers so much later than on the average (a picture that takes 100 ms, a driver's housekeeping)
-/// is not dead each time: half as long again as the longest such gap is allowed, until it is forgotten. Faded each time, and
-/// back over kSoftStart, the force would never be whole. What was longer than kLongestGap was a standstill.
-inline constexpr double kGapsAllowed = 1.5;
-inline constexpr Seconds kLongestGap{0.150}, kGapForgottenIn{10.0};
 
 /// Time between ticks when none is late.
 inline constexpr Seconds kNominalTick{0.001};
@@ -43,7 +38,6 @@ struct LawState {
     std::uint8_t buttons = 0;
     std::uint64_t fluid_sequence = 0;  ///< of the snapshot held, and
     Instant fluid_arrived{0};          ///< the tick that saw it first
-    Seconds longest_gap{0.0};          ///< between two that arrived lately
     std::uint64_t resets = 0;
     std::uint64_t ticks = 0;
 };

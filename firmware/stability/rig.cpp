@@ -72,13 +72,15 @@ class Exhibit final : public Rig {
         exchange_.pose.publish(hand);
         // The longest step that eddy run asks for.
         show_.update(now, Seconds(std::min(moment.dt_s, 0.1)), false);
-        if (!moment.holds_answer) show_.publish(true);
+        if (moment.holds_answer) return;
+        show_.publish(true);
+        answer_ = exchange_.fluid.newest();
     }
     std::vector<gles::Load> loads() override {
         if (!holds_) return {};
         return {{answer().force_n, answer().torque_nm}};
     }
-    FluidSnapshot answer() override { return exchange_.fluid.newest(); }
+    FluidSnapshot answer() override { return answer_; }
     const gles::Fluid& fluid() const override { return show_.fluid(); }
     gles::GuardCounts guards() const override { return show_.guards(); }
     void reset() override { show_.reset(); }
@@ -91,6 +93,7 @@ class Exhibit final : public Rig {
   private:
     HapticExchange exchange_;
     Show show_;
+    FluidSnapshot answer_{};  ///< the last that reached the hand
     Quality quality_;
     bool holds_;  ///< a body
 };
