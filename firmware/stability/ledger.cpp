@@ -73,9 +73,15 @@ void Ledger::give(double work_j) {
     justified_.given_j += std::max(0.0, work_j);
 }
 
+void Ledger::give_ahead(double work_j) {
+    if (!std::isfinite(work_j)) return;
+    give(work_j);
+    justified_.ahead_j += work_j;
+}
+
 void Ledger::whole_tank(double& fastest_m_s, double speed_m_s) {
     if (!(speed_m_s > fastest_m_s)) return;
-    give(0.5 * tank_.mass_kg() * (square(speed_m_s) - square(fastest_m_s)));
+    give_ahead(0.5 * tank_.mass_kg() * (square(speed_m_s) - square(fastest_m_s)));
     fastest_m_s = speed_m_s;
 }
 
@@ -132,7 +138,8 @@ void Ledger::add_bodies(double dt_s, const std::vector<gles::BodyState>& bodies,
         // What it takes from a stream it may have from those who drive the stream, at the expense of nobody here.
         give(others_drive_ ? std::max(0.0, work) : work);
     }
-    give(solid_j - solid_j_);
+    // Of what is in and on it less may be there: what it has at a time is not less when it goes.
+    give_ahead(solid_j - solid_j_);
     solid_j_ = solid_j;
 }
 
@@ -161,7 +168,7 @@ void Ledger::add_sources(double time_s, double dt_s) {
         const double volume = 4.0 / 3.0 * std::numbers::pi * cube(source.radius_m);
         faster(speed);
         // Coming on, it sets off the ball of fluid and, over some steps, what that takes along: half as much, twice.
-        if (!running_[i]) give(3.0 * 0.5 * setup_.density_kg_m3 * volume * square(speed));
+        if (!running_[i]) give_ahead(3.0 * 0.5 * setup_.density_kg_m3 * volume * square(speed));
         // Then it makes a stream: its momentum times its speed, and as much again for the pressure it works against.
         give(2.0 * setup_.density_kg_m3 * area * cube(speed) * dt_s);
         running_[i] = true;

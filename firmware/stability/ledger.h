@@ -37,6 +37,8 @@ class Ledger {
     /// Kinetic energy that the rule finds in and on a body, whatever the fluid does.
     double around_j(std::size_t body, double speed_m_s) const;
     void give(double work_j);
+    /// It may be done now or later.
+    void give_ahead(double work_j);
     /// Of the whole tank at this speed: given once, for the fastest so far.
     void whole_tank(double& fastest_m_s, double speed_m_s);
 

@@ -26,7 +26,7 @@ void Rule::begin(const Fields& fields) {
     verdict_.non_finite = non_finite_texels(fields);
     if (verdict_.non_finite > 0)
         return blame(0, fmt::format("{} texels not finite before the first step", verdict_.non_finite));
-    start_energy_j_ = kinetic_energy_j(tank_, fields);
+    start_energy_j_ = least_j_ = kinetic_energy_j(tank_, fields);
     start_speed_m_s_ = largest_speed_m_s(tank_, fields);
     start_smoke_ = range_of(fields.smoke);
     start_temperature_k_ = range_of(fields.temperature_k);
@@ -67,7 +67,12 @@ void Rule::judge(const StepSeen& step) {
     const Fields& fields = *step.fields;
     const long bad = non_finite_texels(fields);
     verdict_.non_finite = std::max(verdict_.non_finite, bad);
-    if (step.pardoned) return;
+    if (step.pardoned) {
+        // A fault may leave energy behind, and has no books.
+        lately_.clear();
+        least_j_ = start_energy_j_;
+        return;
+    }
     if (bad > 0) return blame(step.step, fmt::format("{} texels are not finite", bad));
 
     const Justified& may = step.justified;
@@ -81,7 +86,10 @@ void Rule::judge(const StepSeen& step) {
 
     energy_j_ = kinetic_energy_j(tank_, fields);
     const double rest = kRestShare * std::max(may.rest_speed_m_s, fastest);
-    const double most_j = std::max(0.0, start_energy_j_ + may.work_j) +
+    for (; !lately_.empty() && lately_.front().time_s < step.time_s - kEnergyMemoryS; lately_.pop_front())
+        least_j_ = std::min(least_j_, lately_.front().energy_j);
+    lately_.push_back({step.time_s, energy_j_ - (may.work_j - may.ahead_j)});
+    const double most_j = std::max(0.0, least_j_ + may.work_j) +
                           kEnergyMargin * (start_energy_j_ + may.given_j) +
                           0.5 * tank_.mass_kg() * rest * rest;
     const double ratio = energy_j_ > 0.0 ? energy_j_ / most_j : 0.0;

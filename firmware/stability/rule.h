@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -12,7 +13,8 @@ namespace eddy::stability {
 //   finite   no texel of velocity, pressure, smoke or temperature, no force and no torque is nan or infinite
 //   speed    max |u| <= 5 times the fastest thing that moves the fluid: a body, jet, wall, or buoyancy, as sqrt(g' L);
 //            times how much a gap narrows the flow, where continuity makes it faster
-//   energy   kinetic energy <= that at the start + the work done on the fluid since + 5 % of what it was ever given
+//   energy   kinetic energy <= that at any time more than a second ago + the work done on the fluid since + what it was given
+//            ahead of the work + 5 % of what it was ever given: what friction has taken is gone
 //   range    smoke and temperature stay between what they were at the start, with 0, and what sources have added
 //   force    what the hand gets is never above its limit, and rises no faster than the slew limit; falling to zero may
 //            be at once (firmware/haptic/force_gate.h)
@@ -21,6 +23,8 @@ namespace eddy::stability {
 
 inline constexpr double kSpeedFactor = 5.0;
 inline constexpr double kEnergyMargin = 0.05;
+inline constexpr double kEnergyMemoryS =
+    1.0;  ///< within it, books of steps as coarse as a motion do not balance
 inline constexpr double kRangeMargin = 1e-3;  ///< of the range: rounding
 inline constexpr double kCalmS = 5.0;
 inline constexpr double kCalmForce = 0.02;
@@ -33,6 +37,7 @@ struct Justified {
     double narrowing = 1.0;  ///< times as fast in the narrowest gap
     double work_j = 0.0;     ///< done on the fluid since the start, less what it gave back
     double given_j = 0.0;    ///< the same without what it gave back
+    double ahead_j = 0.0;    ///< of work_j, what may still be done at any time
     FieldRange smoke_added = {};
     FieldRange temperature_added_k = {};
     double rest_speed_m_s = 0.0;  ///< sqrt(g L) of gravity: what the rounding of weights is measured by
@@ -91,6 +96,12 @@ class Rule {
     HandLimits hand_;
     Verdict verdict_;
     double start_energy_j_ = 0.0, start_speed_m_s_ = 0.0;
+    /// Kinetic energy less the work done until then: of the last second, and at its lowest before.
+    struct Unexplained {
+        double time_s, energy_j;
+    };
+    std::deque<Unexplained> lately_;
+    double least_j_ = 0.0;
     FieldRange start_smoke_, start_temperature_k_;
     glm::dvec3 felt_n_{0.0};
     double felt_s_ = 0.0;  ///< how long the hand has felt

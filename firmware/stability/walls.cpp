@@ -84,6 +84,13 @@ std::vector<Case> wall_cases() {
          .title = "a piston in a closed tube squeezes what is before it",
          .provokes = "a pocket of its own: one more constant in its pressure, and no solution",
          .wants = "the pressure stays bounded, and does not drift unless it is small",
+         .when_red = "what a piston displaces in a closed tube has nowhere to go, and no incompressible flow "
+                     "does that. Guard "
+                     "pocket bounds the pressure; what the solver cannot place it leaves in the layer before "
+                     "the piston, from "
+                     "where the fluid flows off to the whole pocket, at some five times the piston's speed "
+                     "where its face lies "
+                     "within a cell. Energy and force stay within the rule",
          .change =
              [](Scene& s) {
                  const glm::dvec3& size = s.tank.size_m;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace eddy::stability {
 namespace {
@@ -127,6 +128,39 @@ TEST(Rule, AllowsTheEnergyThatWasGivenAndFivePercent) {
     Justified taken = given(2.0);
     taken.work_j = 0.5 * joule;
     EXPECT_FALSE(verdict_on(stream(1.0f), taken).pass);
+}
+
+TEST(Rule, WhatFrictionHasTakenMayNotComeBack) {
+    const double joule = kinetic_energy_j(kTank, stream(1.0f));
+    // Set going, at rest again after two seconds, and going once more for the same work.
+    const auto again = [&](double back_s, const Justified& may, float speed) {
+        Rule rule(kTank);
+        rule.begin(still());
+        const Fields going = stream(1.0f), rest = still(), back = stream(speed);
+        for (const auto& [time_s, fields] :
+             {std::pair(0.1, &going), std::pair(2.0, &rest), std::pair(back_s, &back)})
+            rule.see({.time_s = time_s, .justified = may, .fields = fields});
+        return rule.verdict();
+    };
+    const Justified done{.speed_m_s = 1.0, .work_j = joule, .given_j = joule};
+    EXPECT_THAT(again(3.1, done, 1.0f).reason, HasSubstr("kinetic energy"));
+    EXPECT_TRUE(again(3.1, done, 0.2f).pass) << "a twenty-fifth of it";
+    EXPECT_TRUE(again(2.9, done, 1.0f).pass) << "books of less than a second need not balance";
+    Justified ahead = done;
+    ahead.ahead_j = joule;
+    EXPECT_TRUE(again(3.1, ahead, 1.0f).pass) << "work that may still be done";
+}
+
+TEST(Rule, AFaultHasNoBooks) {
+    const double joule = kinetic_energy_j(kTank, stream(1.0f));
+    const Justified may{.speed_m_s = 1.0, .work_j = joule, .given_j = joule};
+    Rule rule(kTank);
+    rule.begin(still());
+    const Fields going = stream(1.0f), rest = still();
+    rule.see({.time_s = 1.0, .justified = may, .fields = &rest});
+    rule.see({.time_s = 3.0, .justified = may, .fields = &going, .pardoned = true});
+    rule.see({.time_s = 3.1, .justified = may, .fields = &going});
+    EXPECT_TRUE(rule.verdict().pass);
 }
 
 TEST(Rule, WantsSmokeAndHeatBetweenTheirExtremes) {
