@@ -59,6 +59,14 @@ std::vector<Case> time_cases() {
                      .steps = 700});  // a tenth of them take no time, and calm takes 5 s
     cases.push_back(
         {.number = 3,
+         .name = "dt-short",
+         .title = "some steps last a five-hundredth, a fiftieth or a fifth of their usual time",
+         .provokes = "a change of the hand's velocity within next to no time: its added mass over dt",
+         .drive = Drive::Hand,
+         .script = odd_steps(std::array{4e-5, 4e-4, 4e-3}),
+         .steps = 700});
+    cases.push_back(
+        {.number = 3,
          .name = "dt-nonsense",
          .title = "some steps last -20 ms, a quarter of an hour, or not a number",
          .provokes = "a clock that was set, a driver that gives nonsense: nan everywhere in one step",

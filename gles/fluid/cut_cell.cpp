@@ -15,6 +15,9 @@ namespace {
 /// an inflow begins or ends.
 constexpr int kColdCycles = 3;
 
+/// A step more than so many times as long as the last begins anew; what a clock jitters (case 2) comes to 25.
+constexpr float kLongerThanTheLast = 30.0f;
+
 /// From here on a fluid is so thick that one V-cycle of the viscous term leaves more than the next step's pressure can mend: at
 /// 1000, with one for the pressure too, eddies at rest walls grew 1.2 times a step on 25^3 cells.
 constexpr float kThick = 100.0f;
@@ -98,6 +101,8 @@ void CutCellFluid::move_on(double dt_s, const std::vector<BodyState>& given, boo
         sound_, results_.row());
     // phi ~ dt p; before the first step there is none.
     guess_scale_ = dt_s_ > 0.0 ? static_cast<float>(dt_s / dt_s_) : 1.0f;
+    // guard short_step: in next to no time the pressure is that of a blow, and says nothing of a step so much longer
+    if (guess_scale_ > kLongerThanTheLast) guess_scale_ = 0.0f;
     dt_s_ = dt_s;
     std::vector<BodyState> bodies =
         coupling_ ? coupling_->predict(given, bodies_, dt_s) : given;  // x = x + dt U
@@ -224,7 +229,8 @@ Pressure::Work CutCellFluid::place(const std::vector<BodyState>& bodies, float g
         if (viscosity_) viscosity_->place(body_uniforms_, boxes_, fractions_->level(0));
     }
     Pressure::Work work{
-        .cycles = setup_.solver.cycles + (step_ == 0 || driven_.is_sudden() ? kColdCycles : 0),
+        .cycles = setup_.solver.cycles +
+                  (step_ == 0 || guess_scale == 0.0f || driven_.is_sudden() ? kColdCycles : 0),
         .guess_scale = guess_scale,
         .most_phi = sound_.most_phi,
         .cut = boxes_,

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gles/fluid/fluid.h"
 #include "tests/gles/gl_fixture.h"
 
 namespace eddy::gles {
