@@ -98,6 +98,7 @@ bool write_status(const std::filesystem::path& file, const Status& s) {
                     {"late", s.loop.late},
                     {"missed", s.loop.missed},
                     {"worst_late_ms", Seconds(s.loop.worst_late).count() * 1e3},
+                    {"answer_late_ms", s.loop.fluid_lateness.count() * 1e3},
                     {"gain", s.gain.now},
                     {"gain_of_scene", s.gain.of_scene},
                     {"gain_changes", s.gain.changes},
