@@ -63,7 +63,7 @@ vec4 balance(ivec3 c, Neighbours n, out vec4 diagonal) {
 #ifndef COARSE
     // A body may stand in the opening. Coarse grids of an odd grid have no face there, and do without.
     ivec3 to = c + ivec3(float(c.x > 0), float(c.y > 0), 0);
-    outside = out_x * at(ax, FRACTION, ivec3(to.x, c.yz)) + out_y * at(ay, FRACTION, ivec3(c.x, to.y, c.z)) +
+    outside = out_x * share(at(ax, FRACTION, ivec3(to.x, c.yz))) + out_y * share(at(ay, FRACTION, ivec3(c.x, to.y, c.z))) +
               out_z * mix(hz, lz, 1.0 - has_zl);
 #endif
     diagonal += valid * outside;
