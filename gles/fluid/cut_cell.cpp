@@ -18,15 +18,6 @@ constexpr int kColdCycles = 3;
 /// A step more than so many times as long as the last begins anew; what a clock jitters (case 2) comes to 25.
 constexpr float kLongerThanTheLast = 30.0f;
 
-/// From here on a fluid is so thick that one V-cycle of the viscous term leaves more than the next step's pressure can mend: at
-/// 1000, with one for the pressure too, eddies at rest walls grew 1.2 times a step on 25^3 cells.
-constexpr float kThick = 100.0f;
-
-int viscous_cycles(const FluidSetup& setup, double dt_s) {
-    // guard thick
-    return std::max(setup.solver.viscous_cycles, diffusion_number(setup, dt_s) > kThick ? 2 : 1);
-}
-
 /// The setup, if there is a step for it.
 FluidSetup possible(FluidSetup setup) {
     if (setup.solver.time_order == 2 &&
@@ -140,7 +131,7 @@ Field<Cells4> CutCellFluid::advance(Part part, double start_s, std::vector<BodyS
     const bool first_half = part == Part::FirstHalf, second_half = part == Part::SecondHalf;
     const double dt_s = part == Part::Whole ? dt_s_ : 0.5 * dt_s_;
     const double end_s = first_half ? start_s + dt_s : start_s + dt_s_;
-    const Pressure::Work work = place(bodies, first_half ? 0.5f * guess_scale_ : guess_scale_);
+    Pressure::Work work = place(bodies, first_half ? 0.5f * guess_scale_ : guess_scale_);
     Field<Faces> u;
     {
         Gpu::Stage stage(gpu_, "advect velocity");
@@ -249,9 +240,12 @@ std::vector<Displacement> CutCellFluid::since_last_pressure(Part part,
     return since;
 }
 
-Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, const Pressure::Work& work) {
-    // No pressure yet: without one the viscous step would take a fluid held by gravity for one that falls.
-    if (step_ == 0) phi_ = pressure_.solve(divergence(u), work);
+Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, Pressure::Work& work) {
+    // No pressure yet, or none that says anything: without one the viscous step would take a fluid held by gravity for one that falls.
+    if (step_ == 0 || work.guess_scale == 0.0f) {
+        phi_ = pressure_.solve(divergence(u), work);
+        work.guess_scale = 1.0f;
+    }
     // What passes gaps is limited when friction has acted, not before: until then a pressure that drives thick fluid has no match.
     const Field<Faces> predicted = projection_.project(
         u, phi_, work.guess_scale, {.most_phi = sound_.most_phi}, boxes_, walls_.time(time_s_));
@@ -259,7 +253,7 @@ Field<Faces> CutCellFluid::diffuse(const Field<Faces>& u, const Pressure::Work& 
     // The last step's result is a better guess than this step's right-hand side: at rest in a steady flow it is the
     // solution, whatever the cycles leave.
     return viscosity_->diffuse(step_ == 0 ? predicted : diffused_, sound_.fastest_m_s, predicted, dt_s_,
-                               viscous_cycles(setup_, dt_s_), walls_.time(time_s_));
+                               setup_.solver.viscous_cycles, walls_.time(time_s_));
 }
 
 Field<Cells4> CutCellFluid::solve_pressure(Part part, const Field<Cells4>& b, const Pressure::Work& work) {

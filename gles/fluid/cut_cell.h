@@ -64,7 +64,7 @@ class CutCellFluid final : public Fluid {
     /// How far the bodies came since they were where phi_ belongs.
     std::vector<Displacement> since_last_pressure(Part part, const std::vector<BodyState>& bodies) const;
     /// The viscous step, with the last step's pressure in it.
-    Field<Faces> diffuse(const Field<Faces>& u, const Pressure::Work& work);
+    Field<Faces> diffuse(const Field<Faces>& u, Pressure::Work& work);
     Field<Cells4> divergence(const Field<Faces>& u);
     Field<Cells4> solve_pressure(Part part, const Field<Cells4>& b, const Pressure::Work& work);
     Field<Faces> project(const Field<Faces>& u, const Field<Cells4>& phi, float scale);

@@ -71,7 +71,7 @@ void CutCellFluid::free_of_divergence() {
 }
 
 void CutCellFluid::settle() {
-    const Pressure::Work work = place(bodies_, 1.0f);
+    Pressure::Work work = place(bodies_, 1.0f);
     const Field<Faces> u =
         body_forces_ ? body_forces_->add_to(u_, smoke(), temperature(), time_s_, dt_s_) : std::move(u_);
     diffused_ = diffuse(u, work);
