@@ -111,10 +111,13 @@ FluidSlopes measure_slopes(gles::Fluid& fluid, const Scene& scene, const gles::E
                                            0.5 * std::min(third_m, length_m(brisk_m_s, dt)));
     FluidSlopes most;
     const bool alike = scene.bodies.size() == 1 && scene.bodies[*held].shape == BodyShape::Sphere;
-    for (int axis = 0; axis < (alike ? 1 : 3); ++axis) {
+    const glm::dvec3 room_m = room.high - room.low;
+    const int widest = room_m.x >= std::max(room_m.y, room_m.z) ? 0 : room_m.y >= room_m.z ? 1 : 2;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (alike && axis != widest) continue;
         // In a small tank or with long steps it goes more slowly, over a third of the tank; and no further than the hand may.
-        const double way_m = std::min(third_m, room.high[axis] - room.low[axis]);
-        if (!(way_m > 0.0)) continue;
+        const double way_m = std::min(third_m, room_m[axis]);
+        if (way_m < 0.5 * scene.tank.cell_m()) continue;  // the grid would hardly see it move
         const double speed_m_s = brisk_m_s * std::min(1.0, way_m / length_m(brisk_m_s, dt));
         const double half_m = 0.5 * length_m(speed_m_s, dt);
         glm::dvec3 middle_m = place_m;

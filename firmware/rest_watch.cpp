@@ -16,7 +16,7 @@ bool moves_by_itself(const Scene& scene) {
     // Warm and heavy fluid goes on for minutes where it is thick, too slowly for all of it to show.
     const bool weighs = (scene.smoke && scene.smoke->weight != 0.0) ||
                         (scene.temperature && scene.temperature->expansion_1_k != 0.0);
-    return weighs || scene.imposed || scene.forcing ||
+    return (weighs && scene.fluid.gravity_m_s2 != glm::dvec3(0.0)) || scene.imposed || scene.forcing ||
            std::any_of(scene.bodies.begin(), scene.bodies.end(), is_driven) ||
            std::any_of(scene.sources.begin(), scene.sources.end(), blows) ||
            std::any_of(walls.begin(), walls.end(), through);

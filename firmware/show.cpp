@@ -16,7 +16,7 @@ constexpr double kWallGapCells = 1.5;
 constexpr double kPeriodMemory = 8.0;
 /// More than this between two updates is no period of the fluid: it stood still, for a night or for a shader.
 constexpr double kLongestPeriodS = 1.0;
-/// Steps of the GPU's queue whose answers are not in yet when another begins: one that it works on and one that waits. More make
+/// With so many answers under way the oldest is waited for: the GPU works on one step while the next is prepared. More make
 /// nothing faster, and each answer a step later.
 constexpr std::size_t kMostUnderWay = 2;
 /// Steps that an update takes at most.
@@ -52,6 +52,8 @@ glm::dvec3 inside(const gles::Extent& room, const glm::dvec3& hand_m, const glm:
 gles::FluidSetup shown(const Scene& scene) {
     gles::FluidSetup setup = fluid_setup(scene);
     setup.force_methods = false;
+    // A machine that is always slow takes steps as long as that (exhibit/act.h): were they cut, the body would go further than they do.
+    setup.longest_step_s = std::max(setup.longest_step_s, 2.0 * kLongestPeriodS);
     return setup;
 }
 
@@ -134,11 +136,14 @@ void Show::set_quality(const Quality& quality) {
     handover_.begin();
 }
 
+Seconds Show::usual_step() const {
+    return Seconds(std::max(scene_.solver.dt_s, figures_.fluid_period_s));
+}
+
 int Show::parts_of(Seconds dt) const {
     if (figures_.steps == 0) return 1;
-    const double usual_s = std::max(scene_.solver.dt_s, figures_.fluid_period_s);
     // guard sub_steps: a machine that is always slow cannot take more steps, but one that was held up once can
-    return static_cast<int>(std::clamp(std::round(dt.count() / usual_s), 1.0, kMostParts));
+    return static_cast<int>(std::clamp(std::round(dt / usual_step()), 1.0, kMostParts));
 }
 
 void Show::update(Instant now, Seconds dt, bool diagnose) {
@@ -158,8 +163,6 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
     const bool leaps = follows && glm::length(to - from) > fastest_m_s * dt.count();  // guard hand_leap
     if (leaps) ++figures_.placed;
     for (int n = 1; n <= parts; ++n) {
-        // A GPU that is slower than the clock would have each step drop the oldest answer, just as it is done (gles/readback.h).
-        if (under_way_.size() >= kMostUnderWay) publish(true);
         time_s_ += part.count();
         states_ = motions_.at(time_s_, part.count());
         if (held) {
@@ -176,6 +179,9 @@ void Show::update(Instant now, Seconds dt, bool diagnose) {
                                        .dt_s = part.count(),
                                        .velocity_m_s = velocity_m_s,
                                        .before_m_s = std::exchange(held_velocity_m_s_, velocity_m_s)};
+        // A GPU that is slower than the clock would have each step drop the oldest answer, just as it is done (gles/readback.h). Now,
+        // not before the next step: that is to have the pose of its own time.
+        if (under_way_.size() >= kMostUnderWay) publish(true);
     }
     hand_known_ = held && pose.known;
     figures_.fluid_period_s += (std::min(interval, kLongestPeriodS) - figures_.fluid_period_s) /

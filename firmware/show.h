@@ -51,6 +51,8 @@ class Show {
     /// it is ready.
     void set_quality(const Quality& quality);
     const Quality& quality() const { return quality_; }
+    /// The time that a step covers by habit: the scene's, or as much as the machine needs.
+    Seconds usual_step() const;
     /// In place of an update, while nothing moves: the last force stays the answer.
     void rest(Instant now);
     /// One fluid update of dt ending at `now`; `diagnose` also measures the whole tank. After a stall, several steps, along which

@@ -130,8 +130,7 @@ void Act::go_on(Instant now, Seconds interval) {
     }
     rest_ends_ = now + kRestPeriod;
     const QualityControl::Interval since_last{interval, elsewhere, steps_};
-    const double usual_s = std::max(scene_.solver.dt_s, show_.figures().fluid_period_s);
-    fluid_update(now, std::min(interval, std::max(kLongestStep, Seconds(kOfTheUsual * usual_s))));
+    fluid_update(now, std::min(interval, std::max(kLongestStep, kOfTheUsual * show_.usual_step())));
     give_force_back();
     if (const auto change = quality_.update(now, since_last, show_.pose().buttons))
         change_quality(*change, now);

@@ -53,7 +53,7 @@ inline constexpr double kDeviceMaxForceN = 8.0;
 inline constexpr double kFastestHandMS = 1.0;
 inline constexpr Seconds kSoftStart{1.0};
 inline constexpr Seconds kFade{0.040};  ///< of a force that nobody computes any more (law.h)
-/// A fluid that was silent for no longer than this was late, not dead (a picture that took 100 ms): its force fades as any does,
+/// A fluid that was stale for no longer than this was late, not dead (a picture that took 100 ms): its force fades as any does,
 /// and is back where it was so soon. Over kSoftStart a machine that is late twice a second would never have it whole.
 inline constexpr Seconds kHiccup{0.100}, kQuickReturn{0.150};
 /// Motors hold the last force while a tick is late; the first tick after must not spend the whole gap in one

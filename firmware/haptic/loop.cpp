@@ -7,6 +7,8 @@ namespace {
 
 /// How late the fluid's answers are is smoothed over about so many.
 constexpr double kLatenessMemory = 8.0;
+/// What comes later than this was held up by something else, a shader or a scene that was made ready.
+constexpr Seconds kStandstill{0.25};
 
 }  // namespace
 
@@ -54,9 +56,9 @@ void HapticLoop::tick(Instant now) {
                  .reason = out.reason,
                  .buttons = out.pose.buttons});
     ++report_.ticks;
-    if (in.fluid.sequence != 0 && out.fluid_age == Instant(0))  // it has just come
-        report_.fluid_lateness +=
-            (Seconds(now - in.fluid.computed_for) - report_.fluid_lateness) / kLatenessMemory;
+    const Seconds lateness = now - in.fluid.computed_for;
+    if (in.fluid.sequence != 0 && out.fluid_age == Instant(0) && lateness < kStandstill)  // it has just come
+        report_.fluid_lateness += (lateness - report_.fluid_lateness) / kLatenessMemory;
     report_.impulses = state_.law.force.impulses();
     report_.force = state_.law.force.report();
     report_.gate = state_.law.gate.counters();

@@ -27,8 +27,9 @@ class ForceHandover {
     gles::Load hand_on(const gles::Load& load, const Motion& motion, Seconds time);
 
   private:
+    /// As far as it is known: a hand that rests in a jet teaches nothing.
     glm::dvec3 of_motion_n(const Motion& motion) const {
-        return model_.force_n(motion.velocity_m_s, motion.acceleration_m_s2);
+        return model_.explained() * model_.force_n(motion.velocity_m_s, motion.acceleration_m_s2);
     }
 
     bool any_ = false;

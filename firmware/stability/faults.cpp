@@ -50,6 +50,10 @@ std::vector<Case> fault_cases() {
     cases.push_back(struck("nan-in-heat", "a texel of the temperature is struck", Fault::Place::Temperature));
     cases.push_back(
         struck("nan-in-solid", "a texel of the solids' shares is struck", Fault::Place::Fractions));
+    cases.push_back(struck("nan-under-a-hand", "a texel of the velocity is struck while a hand feels the fluid",
+                           Fault::Place::Velocity));
+    cases.back().drive = Drive::Hand;
+    cases.back().wants = "no load is other than finite, and the hand gets the last good force";
     cases.push_back({.number = 24,
                      .name = "garbage-reset",
                      .title = "all textures hold garbage, then nan, and the fluid is reset",

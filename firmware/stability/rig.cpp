@@ -70,7 +70,7 @@ class Exhibit final : public Rig {
 
     void step(const Moment& moment, const PoseSnapshot& hand, Instant now) override {
         exchange_.pose.publish(hand);
-        // The longest step that eddy run asks for.
+        // The longest step that eddy run asks for after a stall.
         show_.update(now, Seconds(std::min(moment.dt_s, 0.1)), false);
         if (moment.holds_answer) return;
         show_.publish(true);

@@ -76,6 +76,9 @@ void Driven::take_over(const Driven* from, double time_s) {
     known_ever_m_s_ = from ? from->known_ever_m_s_ : kNoLimit;
     inflow_m_s_.clear();
     look_at_inflow(time_s, time_s);
+    // A jet that begins right here has not begun for what drove until now.
+    if (from && from->inflow_m_s_.size() >= setup_->sources.size())
+        std::copy_n(from->inflow_m_s_.begin(), setup_->sources.size(), inflow_m_s_.begin());
 }
 
 double Driven::look_at_inflow(double begins_s, double ends_s) {

@@ -52,7 +52,7 @@ TEST_F(GainLimitTest, AnObstacleInTheMiddleDoesNotHideTheFluid) {
 }
 
 TEST_F(GainLimitTest, TheBodyKeepsToItsRoom) {
-    // A ball that nearly fills the tank can go 2 mm to either side, and its fluid resists that steeply.
+    // A ball that nearly fills the tank can go 5 mm to either side, and its fluid resists that steeply.
     const FluidSlopes tight = slopes("", 0.06);
     EXPECT_GT(tight.added_kg, 0.5 * 1.2 * 4.0 / 3.0 * std::numbers::pi * std::pow(0.06, 3));
     EXPECT_LT(tight.added_kg, 1.0);

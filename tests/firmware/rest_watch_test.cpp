@@ -92,6 +92,8 @@ TEST(RestWatch, WarmOrHeavyFluidIsNeverLeftAlone) {
     scene.temperature.emplace();
     EXPECT_FALSE(moves_by_itself(scene));
     scene.smoke->weight = -0.1;
+    EXPECT_FALSE(moves_by_itself(scene)) << "nothing weighs without gravity";
+    scene.fluid.gravity_m_s2 = {0.0, -9.81, 0.0};
     EXPECT_TRUE(moves_by_itself(scene));
     scene.smoke.reset();
     scene.temperature->expansion_1_k = 0.003;

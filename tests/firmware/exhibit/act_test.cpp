@@ -109,6 +109,7 @@ TEST_F(ActTest, ABodyIsMovedHoweverSlowTheMachineIsAndHoweverLongTheScenesSteps)
             moves += glm::length(act.show().bodies().front().velocity_m_s) > 0.0;
         }
         EXPECT_EQ(moves, 10) << period / 1ms << " ms";
+        EXPECT_EQ(act.show().guards().step_shortened, 0) << "the fluid takes the steps that the body takes";
     }
 }
 

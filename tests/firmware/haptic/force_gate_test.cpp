@@ -106,6 +106,11 @@ TEST(ForceGate, EachFaultZeroesTheForceInOneTickAndReturnsSoftly) {
           Fault{GateReason::DeviceNotReady, [](GateInput& in) { in.device_ready = false; }},
           Fault{GateReason::TooFast, [](GateInput& in) { in.speed_m_s = 1.01; }}}) {
         ForceGate gate = opened(force);
+        // A hiccup of the fluid before it makes no difference.
+        GateInput late = wanted(force);
+        late.fluid_stale = true;
+        repeat(gate, late, 50);
+        repeat(gate, wanted(force), 20);
         GateInput in = wanted(force);
         happen(in);
         EXPECT_EQ(gate(in, kNominalTick), glm::dvec3(0.0)) << to_string(reason);

@@ -79,6 +79,18 @@ TEST(ForceHandover, AHandThatTurnsMeanwhileIsNoDifferenceBetweenFluids) {
     }
 }
 
+TEST(ForceHandover, WhatAFluttersForceSaysOfAStillHandIsNotBelieved) {
+    ForceHandover handover;
+    for (int n = 0; n < 75; ++n) {
+        const ForceHandover::Motion noise{{1e-4 * std::cos(2.1 * n), 0.0, 0.0},
+                                          {5e-3 * std::sin(2.9 * n), 0.0, 0.0}};
+        handover.hand_on(load(0.5 + 0.04 * std::sin(1.7 * n)), noise, Seconds(0.02 * n));
+    }
+    handover.begin();
+    const ForceHandover::Motion sets_off{{0.2, 0.0, 0.0}, {10.0, 0.0, 0.0}};
+    EXPECT_NEAR(handover.hand_on(load(0.0), sets_off, Seconds(1.5)).force_n.x, 0.5, 0.3);
+}
+
 TEST(ForceHandover, ForceThatIsNoNumberGoesThroughAndLeavesNoTrace) {
     const double none = std::nan("");
     for (int when = 0; when < 8; ++when) {

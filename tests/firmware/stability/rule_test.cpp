@@ -158,6 +158,7 @@ TEST(Rule, AFaultHasNoBooks) {
     rule.begin(still());
     const Fields going = stream(1.0f), rest = still();
     rule.see({.time_s = 1.0, .justified = may, .fields = &rest});
+    rule.see({.time_s = 2.5, .justified = may, .fields = &rest});  // what was at 1 s stands by now
     rule.see({.time_s = 3.0, .justified = may, .fields = &going, .pardoned = true});
     rule.see({.time_s = 3.1, .justified = may, .fields = &going});
     EXPECT_TRUE(rule.verdict().pass);
