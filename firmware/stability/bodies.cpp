@@ -125,6 +125,8 @@ std::vector<Case> body_cases() {
                          }));
     cases.back().change = [](Scene& s) { stream_through(s, vector_of({0.1, 0.0, 0.0})); };
     cases.back().calm_share = 0.0;
+    // In truth the ball goes at 0.2 m/s, of which nobody is told.
+    cases.back().narrowing = [](const glm::ivec3&) { return 2.0; };
     return cases;
 }
 

@@ -21,6 +21,9 @@ double force_n(const History::Step& step, std::size_t body = 0) {
     return body < step.loads.size() ? glm::length(step.loads[body].force_n) : 0.0;
 }
 
+/// Of the peak of a force: what two runs of the same steps differ by in single precision, and no more.
+constexpr double kRounding = 1e-4;
+
 double peak_force_n(const History& history, std::size_t body = 0) {
     double peak = 0.0;
     for (const History::Step& step : history.steps) peak = std::max(peak, force_n(step, body));
@@ -234,7 +237,7 @@ Criterion is_forgotten(std::size_t at, std::size_t within) {
             return most;
         };
         const double first = largest_n(at, at + within), later = largest_n(at + within, history.steps.size());
-        if (later <= 0.1 * first) return {};
+        if (later <= std::max(0.1 * first, kRounding * peak_force_n(history))) return {};
         return fmt::format("the fault changes the force by {:.2g} N, and {} steps later still by {:.2g} N",
                            first, within, later);
     };

@@ -74,17 +74,21 @@ TEST(Criterion, AModeThatStaysIsFound) {
 }
 
 TEST(Criterion, AFaultThatIsNotForgottenIsFound) {
-    const auto differs = [](double later_n) {
+    const auto differs = [](double later_n, double common_n) {
         History history;
         for (int n = 0; n < 60; ++n) {
-            history.common_n.emplace_back(0.0);
+            history.common_n.emplace_back(common_n, 0.0, 0.0);
             const double off_n = n < 10 ? 0.0 : n < 50 ? 1.0 : later_n;
-            history.steps.push_back({.loads = {{.force_n = {off_n, 0.0, 0.0}}}});
+            history.steps.push_back(
+                {.disturbed = true, .loads = {{.force_n = {common_n + off_n, 0.0, 0.0}}}});
         }
         return history;
     };
-    EXPECT_FALSE(is_forgotten(10, 40)(differs(0.09)));
-    EXPECT_TRUE(is_forgotten(10, 40)(differs(0.11)));
+    EXPECT_FALSE(is_forgotten(10, 40)(differs(0.09, 0.0)));
+    EXPECT_TRUE(is_forgotten(10, 40)(differs(0.11, 0.0)));
+    // Of forces ten thousand times as large that is rounding.
+    EXPECT_FALSE(is_forgotten(10, 40)(differs(0.9, 1e4)));
+    EXPECT_TRUE(is_forgotten(10, 40)(differs(0.9, 5e3)));
 }
 
 TEST(Criterion, VolumeIsBalancedAgainstTheMostThatFlowedIn) {
