@@ -123,11 +123,10 @@ void Fractions::update(const BodyUniforms& bodies, const std::vector<Box>& boxes
         std::vector<Box> faces;
         // As far as the pressure's sweeps of that grid look.
         for (Box& box : cells) faces.push_back((box = box.coarsen().grow(1)).faces());
-        // guard fractions
+        // A grid that is swept as a whole is drawn as a whole.
         coarse.push_back(is_boxed(grids_[l + 1]) ? Region::packed(faces) : Region::everything());
     }
-    draw(bodies, is_boxed(grids_[0]) ? Region::packed(touched) : Region::everything(),
-         coarse);  // guard fractions
+    draw(bodies, is_boxed(grids_[0]) ? Region::packed(touched) : Region::everything(), coarse);
 }
 
 void Fractions::draw(const BodyUniforms& bodies, const Region& finest, const std::vector<Region>& coarse) {
