@@ -7,9 +7,10 @@ namespace eddy {
 
 // How steep a force may be that a fluid answers one of its periods late and holds for another. A mass m with that drag
 // B goes v' = v - B T/m v(one period before), which dies away while B < m / T: the faster the fluid, the more it may
-// resist. Two or three periods late, the limit is 0.62 and 0.45 of that, and m over the whole lateness is within it. Its own damping and that of the hand allow a little more; half of m / T is what is used. An added mass that comes as
-// late drives the handle as soon as it is more than the handle's own, however fast the fluid answers (the added-mass limit of
-// partitioned fluid-structure coupling: Causin, Gerbeau, Nobile 2005); again half of that is used.
+// resist. Two or three periods late, the limit is 0.62 and 0.45 of that, and m over the whole lateness is within it. Its own
+// damping and that of the hand allow a little more; half of m / T is what is used. An added mass that comes as late drives the
+// handle as soon as it is more than the handle's own, however fast the fluid answers (the added-mass limit of partitioned
+// fluid-structure coupling: Causin, Gerbeau, Nobile 2005); again half of that is used.
 
 /// The handle alone, when nobody holds it: the least that moves, assumed on the safe side. One student measured three times as
 /// much on a Falcon (hal/haptic/emulated/plant.h); a person's hand and arm add 0.55 kg (van Beek et al. 2015, Scientific

@@ -52,7 +52,8 @@ Criterion returns_smoothly();
 /// What bodies together feel is what pressure and friction took from the momentum of the fluid around them, but for this share
 /// of the peak (validation B8.2; gles/fluid/force_methods.h). For scenes that ask for force_methods, without gravity.
 Criterion forces_balance(double share);
-/// What a fault after step `at` changes of the force on body 0, beside that of the common scene, is down to a tenth, or to rounding, `within` steps.
+/// What a fault after step `at` changes of the force on body 0, beside that of the common scene, is down to a tenth, or to
+/// rounding, `within` steps.
 Criterion is_forgotten(std::size_t at, std::size_t within);
 /// Forces on body 0 are those of the common scene times this, but for a share of the peak.
 Criterion same_as_common(double factor, double share);

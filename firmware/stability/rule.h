@@ -23,8 +23,8 @@ namespace eddy::stability {
 
 inline constexpr double kSpeedFactor = 5.0;
 inline constexpr double kEnergyMargin = 0.05;
-inline constexpr double kEnergyMemoryS =
-    1.0;  ///< within it, books of steps as coarse as a motion do not balance
+/// Within it, books of steps as coarse as a motion do not balance.
+inline constexpr double kEnergyMemoryS = 1.0;
 inline constexpr double kRangeMargin = 1e-3;  ///< of the range: rounding
 inline constexpr double kCalmS = 5.0;
 inline constexpr double kCalmForce = 0.02;

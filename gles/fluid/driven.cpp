@@ -17,6 +17,7 @@ constexpr double kThroughGaps = 3.0, kCellsThroughGaps = 5.0;
 /// A change in one step, relative to the speed of what drives the fluid: a smooth inflow of 1 Hz changes by an eighth at most in
 /// steps of 20 ms.
 constexpr double kSudden = 0.25;
+
 bool is_unknown(const FluidSetup& setup) {
     const bool weight = (setup.smoke && setup.smoke->weight != 0.0) ||
                         (setup.temperature && setup.temperature->expansion_1_k != 0.0);
