@@ -46,7 +46,8 @@ TEST_F(GainLimitTest, TheAddedMassFoundIsHalfOfWhatABallDisplaces) {
 
 TEST_F(GainLimitTest, AnObstacleInTheMiddleDoesNotHideTheFluid) {
     const std::string obstacle = "[[body]]\nname = \"rock\"\nradius_m = {}\ncentre_m = [0.08, 0.08, 0.08]\n";
-    const FluidSlopes alone = slopes("", 0.015), beside = slopes(fmt::format(fmt::runtime(obstacle), 0.045), 0.015);
+    const FluidSlopes alone = slopes("", 0.015),
+                      beside = slopes(fmt::format(fmt::runtime(obstacle), 0.045), 0.015);
     EXPECT_GT(beside.added_kg, 0.8 * alone.added_kg);
     EXPECT_LT(beside.added_kg, 2.0 * alone.added_kg);
 }
@@ -59,6 +60,19 @@ TEST_F(GainLimitTest, TheBodyKeepsToItsRoom) {
     const FluidSlopes off_centre = slopes("[haptics]\ncentre_m = [0.159, 0.08, 0.08]\n");
     EXPECT_GT(off_centre.added_kg, 0.8 * slopes("").added_kg);
     EXPECT_LT(off_centre.added_kg, 2.0 * slopes("").added_kg) << "it went into the wall";
+}
+
+TEST_F(GainLimitTest, ABallWithoutRoomAlongOneAxisIsTriedAlongAnother) {
+    const Scene scene =
+        read_scene(
+            "[tank]\nsize_m = [0.06, 0.16, 0.16]\ncells = [6, 16, 16]\n[[body]]\nname = \"ball\"\n"
+            "radius_m = 0.025\nmotion = \"held\"\n",
+            "test.toml")
+            .scene;
+    const std::unique_ptr<gles::Fluid> fluid = gles::make_fluid(gpu, fluid_setup(scene));
+    const HapticOrders orders = orders_for(scene, fluid->setup());
+    ASSERT_EQ(orders.lowest_m.x, orders.highest_m.x);
+    EXPECT_GT(measure_slopes(*fluid, scene, {orders.lowest_m, orders.highest_m}).added_kg, 0.0);
 }
 
 TEST(GainLimit, IsHalfOfWhatTheHandleAloneStands) {

@@ -138,6 +138,10 @@ TEST(HapticLoop, ReportsHowLateTheFluidsAnswersAre) {
             rig.loop.tick(milliseconds(i));
         }
         EXPECT_NEAR(rig.exchange.report.newest().fluid_lateness.count(), 1e-3 * late_ms, 1e-4);
+        // What comes after ten seconds of compiling says nothing of the next.
+        rig.exchange.fluid.publish({.sequence = ++rig.sequence, .computed_for = milliseconds(1000)});
+        rig.loop.tick(milliseconds(11'000));
+        EXPECT_NEAR(rig.exchange.report.newest().fluid_lateness.count(), 1e-3 * late_ms, 1e-4);
     }
 }
 

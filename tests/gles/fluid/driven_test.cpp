@@ -176,6 +176,17 @@ TEST(Driven, GoesOnInAnotherFluidAsItDidInTheFirst) {
     EXPECT_GE(stranger.through_gaps_m_s(0.01), 1e30) << "who knows";
 }
 
+TEST(Driven, AJetThatBeginsWhereAnotherFluidGoesOnIsSudden) {
+    FluidSetup s = metre_of_fluid();
+    s.sources = {SourceSetup{.velocity_m_s = glm::dvec3(1.0, 0.0, 0.0), .start_s = 0.01}};
+    Driven first(s), second(s);
+    first.start(0.0);
+    first.go_on({}, 0.0, 0.01);
+    second.take_over(&first, 0.01);
+    second.go_on({}, 0.01, 0.01);
+    EXPECT_TRUE(second.is_sudden());
+}
+
 TEST(Driven, AWallWithoutAValueRests) {
     for (const double none :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
