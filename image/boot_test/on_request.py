@@ -1,4 +1,4 @@
-"""What is done to the box on request, for it takes hours: an update, one that does not work, power cuts by the dozen."""
+"""What is done to the box on request, for it takes long: an update, one that does not work; power cuts by the dozen."""
 import random
 import subprocess
 import sys
@@ -9,11 +9,20 @@ from exhibit import CONFIG, WRITER, Exhibit
 from machine import Failed
 
 
-def on_request(bench, cuts, seed):
+def updates(bench):
     bench.prepare()
     bench.first_start()
     update(bench)
-    power_cuts(bench, cuts, random.Random(seed))
+
+
+def cuts(bench, count, seed):
+    bench.prepare()
+    bench.first_start()
+    with bench.machine() as m:
+        with bench.step("power off and on: the show is on", fatal=True):
+            Exhibit(m, bench.expected).wait_for_show(PATIENCE)
+            show_after_s = m.age_s()
+    power_cuts(bench, count, show_after_s + 30.0, random.Random(seed))
 
 
 def update_stick(bench, name, *options):
@@ -61,18 +70,19 @@ def version(m):
     return m.ask("sed -n s/^IMAGE_VERSION=//p /usr/lib/os-release").strip()
 
 
-def power_cuts(bench, count, chance):
-    """At random moments from power on to a minute into the show, while settings are written all the time."""
-    bad = []
+def power_cuts(bench, count, longest_s, chance):
+    """At random moments from power on to half a minute into the show, while settings are written as soon as there is a place for them."""
+    bad, shows, returned = [], 0, []
     with bench.step(f"{count} power cuts at random moments: each time the data is sound; each tenth time the show is waited for") as s:
         for cut in range(1, count + 1):
             with bench.machine() as m:
-                moment = chance.uniform(5.0, 150.0)
+                moment = chance.uniform(5.0, longest_s)
                 try:
                     m.ask(f"(until [ -d {CONFIG}/conf.d ]; do sleep 1; done; {WRITER}) >/dev/null 2>&1 &", max(1.0, moment - m.age_s()))
                 except Failed:
                     m.alive()  # not yet up: then it is a cut of the start
                 time.sleep(max(0.0, moment - m.age_s()))
+            shows += m.said().count("eddy: the show is on") > 0
             try:
                 bench.sound_data(f"cut {cut}")
             except Failed as failed:
@@ -81,9 +91,12 @@ def power_cuts(bench, count, chance):
                 with bench.machine() as m:
                     e = Exhibit(m, bench.expected)
                     e.wait_for_show(PATIENCE)
+                    returned.append(m.age_s())
                     if (source := e.answer()["source"]) != "new":
                         bad.append(f"after cut {cut} the settings are {source}")
-            print(f"     {cut} of {count}", file=sys.stderr, flush=True)
+            print(f"     {cut} of {count}, {shows} of them in the show; damaged or wrong {len(bad)}", file=sys.stderr, flush=True)
+        s.figure("of them in the show", shows)
         s.figure("damaged or wrong", len(bad))
+        s.figure("the show was back after at most [s]", round(max(returned)))
         if bad:
             raise Failed("\n".join(bad))

@@ -12,7 +12,9 @@ the fluid is tiny (8³ cells) and the picture small. A power cut here is one of 
 whatever else the computer underneath does; in the others it is the clock on the wall.
 """
 
-PARTS = {"fast": "## Each time (`image/boot-test`)", "long": "## On request (`image/boot-test --long CUTS`)"}
+PARTS = {"fast": "## Each time (`image/boot-test`)",
+         "updates": "## Updates (`image/boot-test --updates`)",
+         "cuts": "## Power cuts (`image/boot-test --cuts N`)"}
 
 
 def page(everything):
