@@ -7,6 +7,7 @@
 
 #include "config/override.h"
 #include "firmware/built_from.h"
+#include "firmware/exhibit/future.h"
 #include "firmware/exhibit/start_ledger.h"
 #include "firmware/text_file.h"
 #include "firmware/utc_stamp.h"
@@ -18,11 +19,6 @@ using namespace std::chrono_literals;
 
 std::string this_program() {
     return fmt::format("{} ({})", EDDY_VERSION, kBuiltFrom);
-}
-
-template <class T>
-bool is_ready(const std::future<T>& future) {
-    return future.valid() && future.wait_for(0s) == std::future_status::ready;
 }
 
 bool contains(const std::vector<std::string>& all, const std::string& one) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "firmware/exhibit/future.h"
+
 namespace eddy {
 namespace {
 
@@ -40,7 +42,7 @@ bool read_line(std::istringstream& words, Usage& usage) {
 
 }  // namespace
 
-UsageBook::UsageBook(const std::filesystem::path& folder) : file_(folder / "usage") {
+UsageBook::UsageBook(const std::filesystem::path& folder, Disk& disk) : file_(folder / "usage", disk) {
     const auto text = file_.read();
     if (text ? read(*text) : file_.unreadable() == 0) return;
     damaged_ = true;
@@ -79,17 +81,32 @@ void UsageBook::add(double Usage::*count, double much, std::time_t now) {
 }
 
 bool UsageBook::go_on(Instant now) {
-    if (!dirty_ || now < due_) return true;
-    due_ = now + kEvery;
-    return write();
+    const bool good = !is_ready(writing_) || fetch();
+    if (dirty_ && now >= due_ && !writing_.valid()) {
+        due_ = now + kEvery;
+        dirty_ = false;
+        writing_ = std::async(std::launch::async, [this, text = text()] { return file_.try_write(text); });
+    }
+    return good;
+}
+
+/// Waits for what is being written; what could not be is to be written still.
+bool UsageBook::fetch() {
+    const bool good = writing_.get();
+    dirty_ |= !good;
+    return good;
 }
 
 bool UsageBook::write() {
-    if (!dirty_) return true;
+    if (writing_.valid()) fetch();
+    if (dirty_) dirty_ = !file_.try_write(text());
+    return !dirty_;
+}
+
+std::string UsageBook::text() const {
     std::string text = fmt::format("{}\n{}", kFirstLine, line_of(kTotal, total_));
     for (const auto& [day, usage] : days_) text += line_of(day, usage);
-    dirty_ = !file_.try_write(text);
-    return !dirty_;
+    return text;
 }
 
 Usage UsageBook::on(std::time_t day) const {

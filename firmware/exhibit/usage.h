@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <string>
 #include <string_view>
@@ -35,7 +36,7 @@ inline constexpr std::array<UsageCounter, 7> kUsageCounters{{
 }};
 
 /// Keeps the counts of each day and of all time in a file of the state folder: written once a minute at most, and at the end. A
-/// power cut loses the last minute and nothing else.
+/// power cut loses the last minute and nothing else. One thread, which does not wait for the disk until the end.
 class UsageBook {
   public:
     static constexpr Instant kEvery = std::chrono::minutes(1);
@@ -43,15 +44,16 @@ class UsageBook {
     static constexpr std::size_t kMostDays = 92;
 
     /// Reads what is there; a file that is damaged is put aside, and counting begins anew (damaged()).
-    explicit UsageBook(const std::filesystem::path& folder);
+    explicit UsageBook(const std::filesystem::path& folder, Disk& disk = real_disk());
     ~UsageBook() { write(); }
     UsageBook(const UsageBook&) = delete;
     UsageBook& operator=(const UsageBook&) = delete;
 
     void add(double Usage::*count, double much, std::time_t now);
-    /// When something was counted and the last writing is long enough ago; false if it should have been written and could not be.
+    /// Begins to write, beside this thread, when something was counted and the last writing is long enough ago. False, once, if what
+    /// was begun before could not be written.
     bool go_on(Instant now);
-    /// What is not yet written.
+    /// Writes what is not yet written, and waits for that; false if it could not be.
     bool write();
 
     const Usage& total() const { return total_; }
@@ -61,12 +63,15 @@ class UsageBook {
 
   private:
     bool read(std::string_view text);
+    std::string text() const;
+    bool fetch();
 
     StateFile file_;
     Usage total_;
     std::map<std::string, Usage> days_;  ///< by "2026-11-24"
     bool damaged_ = false, dirty_ = false;
     Instant due_{0};
+    std::future<bool> writing_;
 };
 
 }  // namespace eddy

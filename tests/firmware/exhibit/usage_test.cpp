@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 #include "tests/firmware/exhibit/time_zone.h"
 #include "tests/scratch_folder.h"
 
@@ -9,6 +12,35 @@ namespace eddy {
 namespace {
 
 using namespace std::chrono_literals;
+
+/// Files are kept as they are, but only when the test says so.
+class SlowDisk final : public Disk {
+  public:
+    std::atomic<int> begun = 0, let_through = 0, done = 0;
+
+    void write(const std::filesystem::path& file, std::string_view bytes) override {
+        for (const int mine = begun++; let_through <= mine;) std::this_thread::yield();
+        real_disk().write(file, bytes);
+    }
+    void rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
+        real_disk().rename(from, to);
+        ++done;
+    }
+    void remove(const std::filesystem::path& file) override { real_disk().remove(file); }
+    void make_folder(const std::filesystem::path& folder) override { real_disk().make_folder(folder); }
+    void flush_folder(const std::filesystem::path&) override {}
+};
+
+/// Waits for it, for half a minute.
+template <class Condition>
+bool comes(Condition condition) {
+    const auto end = std::chrono::steady_clock::now() + 30s;
+    while (std::chrono::steady_clock::now() < end) {
+        if (condition()) return true;
+        std::this_thread::yield();
+    }
+    return false;
+}
 
 class UsageTest : public testing::Test {
   protected:
@@ -45,17 +77,32 @@ TEST_F(UsageTest, ADayEndsAtMidnightByTheWall) {
 }
 
 TEST_F(UsageTest, IsWrittenOnceAMinuteAtMost) {
-    UsageBook book(folder_.path());
-    int written = 0;
-    std::string before;
-    for (Instant t = 0s; t < 600s; t += 1s) {
+    SlowDisk disk;
+    disk.let_through = 1000;
+    UsageBook book(folder_.path(), disk);
+    for (int second = 0; second < 600; ++second) {
         book.add(&Usage::force_s, 1, noon_);
-        EXPECT_TRUE(book.go_on(t));
-        const std::string now = read_all(folder_ / "usage");
-        written += now != before;
-        before = now;
+        EXPECT_TRUE(book.go_on(Instant(std::chrono::seconds(second))));
+        ASSERT_TRUE(comes([&] { return disk.done == second / 60 + 1; })) << second;
     }
-    EXPECT_EQ(written, 10);
+    EXPECT_EQ(disk.begun, 10);
+}
+
+TEST_F(UsageTest, ASlowDiskIsWaitedForAtTheEndOnly) {
+    SlowDisk disk;
+    {
+        UsageBook book(folder_.path(), disk);
+        for (Instant t = 0s; t < 300s; t += 1s) {
+            book.add(&Usage::force_s, 1, noon_);
+            EXPECT_TRUE(book.go_on(t));
+        }
+        ASSERT_TRUE(comes([&] { return disk.begun == 1; }));
+        EXPECT_TRUE(folder_.listing().empty());
+        disk.let_through = 2;
+    }
+    EXPECT_EQ(disk.begun, 2)
+        << "what came after the first was never written, or one began before another had ended";
+    EXPECT_EQ(UsageBook(folder_.path()).total().force_s, 300.0);
 }
 
 TEST_F(UsageTest, NothingNewIsNotWritten) {
@@ -129,9 +176,10 @@ TEST_F(UsageTest, AFullDiskIsSaidAndTriedAgain) {
     folder_.write("no_folder", "");
     UsageBook book(folder_ / "no_folder");
     book.add(&Usage::visits, 1, noon_);
-    EXPECT_FALSE(book.go_on(0s));
-    EXPECT_TRUE(book.go_on(1s)) << "not due yet";
-    EXPECT_FALSE(book.go_on(61s));
+    EXPECT_TRUE(comes([&] { return !book.go_on(0s); }));
+    for (int i = 0; i < 100; ++i) EXPECT_TRUE(book.go_on(59s)) << "not due yet";
+    EXPECT_TRUE(comes([&] { return !book.go_on(61s); }));
+    EXPECT_FALSE(book.write());
 }
 
 }  // namespace
