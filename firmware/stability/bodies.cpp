@@ -3,6 +3,7 @@
 
 #include "firmware/stability/case.h"
 #include "firmware/stability/criteria.h"
+#include "firmware/stability/rule.h"
 #include "firmware/stability/scene_parts.h"
 
 namespace eddy::stability {
@@ -30,7 +31,8 @@ Case thin_plate(const char* name, const char* title, double angle_deg) {
                     ball(s).oscillation = swing({0.15 * shortest_side_m(s), 0.0, 0.0}, 0.5);
                 },
             .complaint = gives_back_no_more(),
-            .calm_share = 0.0};
+            .calm_share = 0.0,
+            .calm_s = kCalmS};
 }
 
 /// 9: nearly or really nothing in the hand.
@@ -78,6 +80,7 @@ std::vector<Case> body_cases() {
                          },
                      .complaint = force_is_continuous(0, 0.25, 20),
                      .calm_share = 0.0,
+                     .calm_s = kCalmS,
                      // The plate stands in a quarter of the stream.
                      .narrowing = [](const glm::ivec3&) { return 4.0 / 3.0; }});
     cases.push_back(tiny("fifth-of-a-cell", "the ball in the hand has a radius of a fifth of a cell", 0.2));
@@ -108,6 +111,7 @@ std::vector<Case> body_cases() {
          .remark = remark_on_balance(),
          .least_steps = 100,
          .calm_share = 0.0,
+         .calm_s = kCalmS,
          // What two balls press out from between them at the last, half a cell apart.
          .narrowing =
              [](const glm::ivec3& n) {
@@ -125,6 +129,7 @@ std::vector<Case> body_cases() {
                          }));
     cases.back().change = [](Scene& s) { stream_through(s, vector_of({0.1, 0.0, 0.0})); };
     cases.back().calm_share = 0.0;
+    cases.back().calm_s = kCalmS;
     // In truth the ball goes at 0.2 m/s, of which nobody is told.
     cases.back().narrowing = [](const glm::ivec3&) { return 2.0; };
     return cases;

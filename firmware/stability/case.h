@@ -86,12 +86,14 @@ struct Case {
     long least_steps = 0;
     double calm_share =
         0.5;  ///< of the steps, at the end, in which nothing disturbs; 0: something always does
+    /// After those steps all that disturbs is stopped, for so long: what it `wants` is judged before. With calm_share 0; alone only.
+    double calm_s = 0.0;
     /// How much faster the flow must be in a gap: see Justified. None: no gap is narrow.
     std::function<double(const glm::ivec3& cells)> narrowing = {};
     bool puts_faults = false;  ///< its script does
     /// Transport must not make new extremes of the velocity; alone only, with cut cells.
     bool watches_transport = false;
-    bool may_be_idle = false;  ///< what moves may be where there is no fluid
+    bool may_be_idle = false;            ///< what moves may be where there is no fluid
     long pardon_steps = 0;               ///< after a fault: how many steps it may take to heal
     bool small_only = false;             ///< takes too long on large grids
     bool full_only = false;              ///< takes too long for a quick look
@@ -117,6 +119,12 @@ std::vector<const Case*> cases_named(const std::string& name);
 
 /// The scene that all cases change: inviscid air with a ball of smoke, and a ball in the hand, 0.16 m long.
 Scene common_scene(const Trial& trial);
+
+/// From then on no source and no wall drives the fluid.
+void falls_silent(Scene& scene, double stop_s);
+/// The time that moves the scene's own bodies: it runs down to a halt within kRunDownS of stop_s.
+double running_down_s(double time_s, double stop_s);
+inline constexpr double kRunDownS = 0.2;
 
 /// Where the hand is when no case says otherwise: it stirs, then rests in the middle.
 glm::dvec3 stroke_m(const Moment& moment);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -38,6 +39,24 @@ Scene common_scene(const Trial& trial) {
         scene.solver.viscous_cycles = 1;
     }
     return scene;
+}
+
+void falls_silent(Scene& scene, double stop_s) {
+    for (Scene::Source& source : scene.sources)
+        source.stop_s = std::min(stop_s, source.stop_s.value_or(stop_s));
+    for (Scene::Wall* wall : scene.tank.walls.all()) {
+        if (!wall->velocity_m_s) continue;
+        for (Formula* u : {&wall->velocity_m_s->x, &wall->velocity_m_s->y, &wall->velocity_m_s->z}) {
+            if (u->constant() == 0.0) continue;
+            const std::string before = u->source() ? *u->source() : fmt::format("{:.17g}", *u->constant());
+            *u = Formula::parse(fmt::format("({}) * (t < {:.9g})", before, stop_s));
+        }
+    }
+}
+
+double running_down_s(double time_s, double stop_s) {
+    const double since_s = std::min(time_s - stop_s, kRunDownS);
+    return since_s > 0.0 ? stop_s + since_s - 0.5 * since_s * since_s / kRunDownS : time_s;
 }
 
 glm::dvec3 stroke_m(const Moment& moment) {

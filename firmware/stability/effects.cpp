@@ -26,7 +26,8 @@ Case swirls(double strength_1_s) {
             // The strongest feeds the flow until the limit holds it: longer than friction takes.
             .steps = strength_1_s > 10.0 ? 2500 : 1500,
             .least_steps = strength_1_s > 10.0 ? 2500 : 1500,
-            .calm_share = 0.0};
+            .calm_share = 0.0,
+            .calm_s = 10.0};
 }
 
 Case hot(const char* name, const char* title, std::function<void(Scene&)> change) {

@@ -32,7 +32,7 @@ Estimate::Estimate(gles::Gpu& gpu, std::span<const Cell> cells) {
 double Estimate::seconds(const Cell& cell) const {
     const auto pace =
         std::find_if(paces_.begin(), paces_.end(), [&](const Pace& one) { return one.trial == cell.trial; });
-    return pace->start_s + pace->step_s * static_cast<double>(cell.steps());
+    return pace->start_s + pace->step_s * static_cast<double>(cell.all_steps());
 }
 
 std::string Estimate::in_words(std::span<const Cell> cells) const {

@@ -2,6 +2,7 @@
 
 #include "firmware/stability/case.h"
 #include "firmware/stability/criteria.h"
+#include "firmware/stability/rule.h"
 #include "firmware/stability/scene_parts.h"
 
 namespace eddy::stability {
@@ -18,6 +19,10 @@ Case courant(double number) {
             .title = fmt::format("a jet crosses {:g} cells in a step, around a ball", number),
             .provokes = "transport that overshoots: new extremes of smoke and of velocity",
             .wants = "transport makes no new extremes of any component of the velocity",
+            .when_red =
+                "what a slow jet leaves behind turns on for as long as friction in air lets it, minutes, and "
+                "the ball "
+                "feels that; the slower the jet, the larger a share of what it was. The force only falls",
             .change =
                 [number](Scene& scene) {
                     Scene::Source& jet = scene.sources.emplace_back();
@@ -28,6 +33,7 @@ Case courant(double number) {
                 },
             .script = rest_in_the_middle,
             .calm_share = 0.0,
+            .calm_s = kCalmS,
             .watches_transport = true};
 }
 
@@ -46,7 +52,8 @@ Case stream(const char* name, const char* title, const char* provokes, std::func
             .change = std::move(change),
             .script = rest_in_the_middle,
             .complaint = volume_balances(1e-2),
-            .calm_share = 0.0};
+            .calm_share = 0.0,
+            .calm_s = kCalmS};
 }
 
 }  // namespace
@@ -64,15 +71,14 @@ std::vector<Case> jet_cases() {
                                    s, vector_of(Formula::parse("0.3 * (sin(125.66 * t) > 0)"), 0.0, 0.0));
                            }));
     Case against = stream("jet-against-inflow", "a jet at the open wall blows against the stream",
-                           "fluid enters where it should leave: back-flow through an open wall",
-                           [](Scene& s) {
-                               stream_through(s, vector_of({kStream, 0.0, 0.0}));
-                               Scene::Source& jet = s.sources.emplace_back();
-                               jet.name = "jet";
-                               jet.centre_m = s.tank.size_m * glm::dvec3(0.85, 0.5, 0.5);
-                               jet.radius_m = 0.15 * shortest_side_m(s);
-                               jet.velocity_m_s = glm::dvec3(-1.0, 0.0, 0.0);
-                           });
+                          "fluid enters where it should leave: back-flow through an open wall", [](Scene& s) {
+                              stream_through(s, vector_of({kStream, 0.0, 0.0}));
+                              Scene::Source& jet = s.sources.emplace_back();
+                              jet.name = "jet";
+                              jet.centre_m = s.tank.size_m * glm::dvec3(0.85, 0.5, 0.5);
+                              jet.radius_m = 0.15 * shortest_side_m(s);
+                              jet.velocity_m_s = glm::dvec3(-1.0, 0.0, 0.0);
+                          });
     against.when_red =
         "what flows in through an opening has the speed of what is beside it, as if a duct went on "
         "there: a jet that sucks from an opening gets its own stream back. Speeds rise for some tenths of a "
@@ -90,7 +96,8 @@ std::vector<Case> jet_cases() {
                      .script = rest_in_the_middle,
                      .complaint = all_of({pressure_bounded(0.1), pressure_levels_off()}),
                      .least_steps = kLevelSteps,
-                     .calm_share = 0.0});
+                     .calm_share = 0.0,
+                     .calm_s = kCalmS});
     return cases;
 }
 

@@ -26,7 +26,10 @@ struct Cell {
     long most_steps;
     /// "stall", "stall+corner"
     std::string name() const;
+    /// In which what the case wants is judged.
     long steps() const;
+    /// With the calm after those.
+    long all_steps() const;
 };
 
 /// All cells, row by row. Throws InputError for cases and grids that do not exist.

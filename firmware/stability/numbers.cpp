@@ -2,6 +2,7 @@
 
 #include "firmware/stability/case.h"
 #include "firmware/stability/criteria.h"
+#include "firmware/stability/rule.h"
 #include "firmware/stability/scene_parts.h"
 
 namespace eddy::stability {
@@ -80,7 +81,8 @@ std::vector<Case> number_cases() {
                              jet.smoke_per_s = 1e6;
                          },
                      .script = [](Moment& m) { m.hand_m = m.middle_m(); },
-                     .calm_share = 0.0});
+                     .calm_share = 0.0,
+                     .calm_s = kCalmS});
     cases.push_back(
         {.number = 22,
          .name = "below-6e-8",
@@ -108,9 +110,9 @@ std::vector<Case> number_cases() {
                              s.initial.velocity_m_s = {board, board, board};
                          },
                      .complaint = energy_decays(100),
-                     .steps = 200,
+                     .steps = 250,
                      .least_steps = 120,
-                     .calm_share = 0.0});
+                     .calm_share = 1.0});
     cases.push_back(
         {.number = 26,
          .name = "checkerboard-pressure",

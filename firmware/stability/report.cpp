@@ -152,13 +152,13 @@ std::string summary_of(std::span<const Cell> cells, std::span<const Result> resu
     std::string text = fmt::format("{} cells of single cases and {} of pairs are green; took {:.0f} s\n",
                                    count_of(cells, results, false), count_of(cells, results, true), wall_s);
     const auto ended_early = std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) {
-        const double calm_s = planned_calm_s(cell.cases, cell.trial, cell.most_steps);
-        return calm_s > 0.0 && calm_s < kCalmS - 1e-6 && find(results, cell);
+        return plan_of(cell.cases, cell.trial, cell.most_steps).calm_s < kCalmS - 1e-6 && find(results, cell);
     });
     if (ended_early > 0)
         text += fmt::format(
-            "not judged in {} of them: calm {} s after the last disturbance, for which they "
-            "end too early\n",
+            "not judged in {} of them: calm {} s after the last disturbance; they end before, or something "
+            "disturbs "
+            "to their end\n",
             ended_early, kCalmS);
     return text;
 }
@@ -191,7 +191,7 @@ std::string report_of(std::span<const Cell> cells, std::span<const Result> resul
         "- the hand never gets more than its limit, and the force rises no faster than the slew limit;\n"
         "- 5 s after the last disturbance the force is below 2 % of its peak, and energy is down to half in "
         "the time of "
-        "friction (what ends earlier, as pairs do, is not judged by this);\n"
+        "friction (what ends earlier, as pairs do, or is disturbed to its end is not judged by this);\n"
         "- what the case wants besides (`eddy stability --list`).\n\n"
         "It judges fields that it downloads and forces that the hand gets; what the solver says of itself is "
         "no "

@@ -9,8 +9,9 @@ namespace {
 /// The fluid alone, given whatever a case likes.
 class Steps final : public Rig {
   public:
-    Steps(gles::Gpu& gpu, const Scene& scene, const gles::FluidSetup& setup, ChangeBodies change)
-        : fluid_(gles::make_fluid(gpu, setup)), motions_(scene), change_(std::move(change)) {
+    Steps(gles::Gpu& gpu, const Scene& scene, const gles::FluidSetup& setup, ChangeBodies change,
+          double stop_s)
+        : fluid_(gles::make_fluid(gpu, setup)), motions_(scene), change_(std::move(change)), stop_s_(stop_s) {
         loads_.resize(scene.bodies.size());
     }
 
@@ -21,9 +22,9 @@ class Steps final : public Rig {
             fluid_->set_velocity(u);
         }
         const double passes_s = taken_s(fluid_->setup(), moment.dt_s);
-        time_s_ += passes_s;
+        const double before_s = std::exchange(time_s_, time_s_ + passes_s);
         std::vector<gles::BodyState> bodies =
-            motions_.at(time_s_, passes_s > 0.0 ? passes_s : moment.scene->solver.dt_s);
+            bodies_at(before_s, passes_s > 0.0 ? passes_s : moment.scene->solver.dt_s);
         if (const auto held = motions_.held()) {
             gles::BodyState& body = bodies[*held];
             body.centre_m = moment.hand_m;
@@ -51,9 +52,23 @@ class Steps final : public Rig {
     }
 
   private:
+    /// Until now; what runs down goes slower than it would.
+    std::vector<gles::BodyState> bodies_at(double before_s, double dt_s) const {
+        const double runs_s = running_down_s(time_s_, stop_s_);
+        if (runs_s == time_s_) return motions_.at(time_s_, dt_s);
+        const double goes_on_s = runs_s - running_down_s(before_s, stop_s_);
+        std::vector<gles::BodyState> bodies = motions_.at(runs_s, std::max(goes_on_s, 1e-3 * dt_s));
+        for (gles::BodyState& body : bodies) {
+            body.velocity_m_s *= goes_on_s / dt_s;
+            body.spin_rad_s *= goes_on_s / dt_s;
+        }
+        return bodies;
+    }
+
     std::unique_ptr<gles::Fluid> fluid_;
     BodySchedule motions_;
     ChangeBodies change_;
+    double stop_s_;
     std::vector<gles::Load> loads_;
     FluidSnapshot answer_;
     std::optional<glm::dvec3> at_m_;  ///< where the hand has held the body
@@ -106,9 +121,9 @@ double taken_s(const gles::FluidSetup& setup, double dt_s) {
 }
 
 std::unique_ptr<Rig> make_rig(gles::Gpu& gpu, const Scene& scene, const gles::FluidSetup& setup,
-                              bool with_hand, ChangeBodies bodies) {
+                              bool with_hand, ChangeBodies bodies, double stop_s) {
     if (with_hand) return std::make_unique<Exhibit>(gpu, scene);
-    return std::make_unique<Steps>(gpu, scene, setup, std::move(bodies));
+    return std::make_unique<Steps>(gpu, scene, setup, std::move(bodies), stop_s);
 }
 
 }  // namespace eddy::stability

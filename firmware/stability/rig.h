@@ -29,9 +29,9 @@ class Rig {
 double taken_s(const gles::FluidSetup& setup, double dt_s);
 
 /// `setup`: of the scene; with a hand, the exhibit makes its own. `bodies`: see Case::bodies; of all cases that are tried at
-/// once.
+/// once. stop_s: when the scene's own bodies run down.
 using ChangeBodies = std::function<void(const Moment&, std::vector<gles::BodyState>&)>;
 std::unique_ptr<Rig> make_rig(gles::Gpu& gpu, const Scene& scene, const gles::FluidSetup& setup,
-                              bool with_hand, ChangeBodies bodies);
+                              bool with_hand, ChangeBodies bodies, double stop_s);
 
 }  // namespace eddy::stability

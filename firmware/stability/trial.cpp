@@ -32,10 +32,22 @@ long steps_between_looks(const glm::ivec3& n, long steps) {
 /// Cases at once, as one.
 struct Mixture {
     Scene scene;
-    long steps;
-    double calm_share = 1.0, narrowing = 1.0;
+    long steps;  ///< in which what the case wants is judged
+    double calm_share = 1.0, calm_s = 0.0, narrowing = 1.0;
     bool with_hand = false, puts_faults = false, looks_always = false;
     long pardon_steps = 0;
+
+    double dt_s() const { return scene.solver.dt_s; }
+    /// When the scene's own motion stops, if it does.
+    double stop_s() const {
+        return calm_s > 0.0 ? dt_s() * static_cast<double>(steps) : std::numeric_limits<double>::infinity();
+    }
+    double calm_from_s() const {
+        return calm_s > 0.0 ? stop_s() + kRunDownS : dt_s() * static_cast<double>(steps) * (1.0 - calm_share);
+    }
+    long all_steps() const {
+        return calm_s > 0.0 ? steps + std::lround((kRunDownS + calm_s) / dt_s()) : steps;
+    }
 };
 
 /// A case that compares itself with the common scene does so for so many steps: after them differences of rounding have grown
@@ -57,6 +69,8 @@ Mixture mixture_of(std::span<const Case* const> cases, const Trial& trial, long 
     }
     all.with_hand &= !wants_steps;
     all.steps = std::min(all.steps, most_steps);
+    if (cases.size() == 1 && all.steps == cases.front()->steps) all.calm_s = cases.front()->calm_s;
+    if (all.calm_s > 0.0) falls_silent(all.scene, all.stop_s());
     return all;
 }
 
@@ -82,18 +96,18 @@ class Run {
                   between_looks_ == 1 ? Ledger::Inflow::Seen : Ledger::Inflow::Estimated),
           at_rest_(ledger_.at_rest()),
           hand_(orders_for(mixture_.scene, setup_), gate_),
-          rig_(make_rig(gpu, mixture_.scene, setup_, mixture_.with_hand,
-                        [this](const Moment& moment, std::vector<gles::BodyState>& bodies) {
-                            for (const Case* one : cases_)
-                                if (one->bodies) one->bodies(moment, bodies);
-                        })) {
+          rig_(make_rig(
+              gpu, mixture_.scene, setup_, mixture_.with_hand,
+              [this](const Moment& moment, std::vector<gles::BodyState>& bodies) {
+                  for (const Case* one : cases_)
+                      if (one->bodies) one->bodies(moment, bodies);
+              },
+              mixture_.stop_s())) {
         if (mixture_.puts_faults) faults_.emplace(gpu);
         if (alone().watches_transport) transport_.emplace(gpu);
         history_.tank = tank_of(setup_);
         history_.gravity_m_s2 = glm::length(setup_.gravity_m_s2);
         history_.planned_steps = mixture_.steps;
-        const double dt_s = mixture_.scene.solver.dt_s;
-        calm_from_s_ = dt_s * static_cast<double>(mixture_.steps) * (1.0 - mixture_.calm_share);
         const Fields start = download(rig_->fluid());
         history_.start_energy_j = kinetic_energy_j(history_.tank, start);
         history_.start_speed_m_s = largest_speed_m_s(history_.tank, start);
@@ -103,7 +117,7 @@ class Run {
     /// What is red goes on, to show how far it goes; but numbers that are none only spread.
     bool goes_on() const {
         const bool enough = rule_.failed() && (rule_.verdict().non_finite > 0 || alone().ends_when_red);
-        return step_ < mixture_.steps && !enough;
+        return step_ < mixture_.all_steps() && !enough;
     }
     void step();
     Outcome outcome();
@@ -120,6 +134,7 @@ class Run {
     void judge_transport();
     void judge_own_check(const Moment& moment);
     void judge_life();
+    void judge_wants();
     void look(const Moment& moment);
     /// What it wants besides the rule, and has to say; of two at once nothing can be asked.
     const Case& alone() const {
@@ -142,12 +157,14 @@ class Run {
     std::optional<TransportWatch> transport_;
     History history_;
     long step_ = 0, resets_ = 0, pardoned_until_ = 0, unsound_ = 0;
-    double time_s_ = 0.0, fluid_s_ = 0.0, calm_from_s_ = 0.0, unseen_s_ = 0.0;
+    double time_s_ = 0.0, fluid_s_ = 0.0, unseen_s_ = 0.0;
+    std::string remark_;
 };
 
 Moment Run::moment_now() const {
-    Moment moment{.step = step_, .time_s = time_s_, .calm_from_s = calm_from_s_, .scene = &mixture_.scene};
-    moment.dt_s = mixture_.scene.solver.dt_s;
+    Moment moment{
+        .step = step_, .time_s = time_s_, .calm_from_s = mixture_.calm_from_s(), .scene = &mixture_.scene};
+    moment.dt_s = mixture_.dt_s();
     moment.hand_m = stroke_m(moment);
     for (const Case* one : cases_)
         if (one->script) one->script(moment);
@@ -232,13 +249,13 @@ void Run::step() {
     ledger_.add(fluid_s_, passed_s, bodies, felt.size() == bodies.size() ? felt : std::vector<gles::Load>());
     judge_own_check(moment);
     look(moment);
-    ++step_;
+    if (++step_ == mixture_.steps) judge_wants();
 }
 
 void Run::look(const Moment& moment) {
     const bool pardoned = step_ < pardoned_until_;
     const bool looks = moment.look || pardoned || step_ == pardoned_until_ || step_ % between_looks_ == 0 ||
-                       step_ + 1 == mixture_.steps;
+                       step_ + 1 == mixture_.steps || step_ + 1 == mixture_.all_steps();
     std::optional<Fields> fields;
     if (looks) {
         fields = download(rig_->fluid());
@@ -256,28 +273,28 @@ void Run::look(const Moment& moment) {
                .pardoned = pardoned});
 }
 
-Outcome Run::outcome() {
-    if (step_ == mixture_.steps && !alone().may_be_idle) judge_life();
-    Outcome outcome{step_, rule_.verdict()};
-    if (step_ < mixture_.steps) return outcome;  // a criterion is about what happened to the end
-    if (outcome.verdict.pass && alone().complaint)
-        if (const auto complaint = alone().complaint(history_)) {
-            rule_.blame(step_, *complaint);
-            outcome.verdict = rule_.verdict();
-        }
-    if (alone().remark) outcome.remark = alone().remark(history_);
+/// A criterion is about what happened to the end.
+void Run::judge_wants() {
+    if (!alone().may_be_idle) judge_life();
+    if (!rule_.failed() && alone().complaint)
+        if (const auto complaint = alone().complaint(history_)) rule_.blame(step_, *complaint);
+    if (alone().remark) remark_ = alone().remark(history_);
     for (const Case* one : cases_)
         if (mixture_.steps < one->least_steps)
-            outcome.remark += fmt::format("{}not judged: all of {}, which takes {} steps",
-                                          outcome.remark.empty() ? "" : "; ", one->name, one->least_steps);
-    return outcome;
+            remark_ += fmt::format("{}not judged: all of {}, which takes {} steps",
+                                   remark_.empty() ? "" : "; ", one->name, one->least_steps);
+}
+
+Outcome Run::outcome() {
+    return {.steps = step_, .verdict = rule_.verdict(), .remark = remark_};
 }
 
 }  // namespace
 
-double planned_calm_s(std::span<const Case* const> cases, const Trial& trial, long most_steps) {
+Plan plan_of(std::span<const Case* const> cases, const Trial& trial, long most_steps) {
     const Mixture all = mixture_of(cases, trial, most_steps);
-    return all.scene.solver.dt_s * static_cast<double>(all.steps) * all.calm_share;
+    return {.steps = all.all_steps(),
+            .calm_s = all.dt_s() * static_cast<double>(all.all_steps()) - all.calm_from_s()};
 }
 
 Outcome try_out(gles::Gpu& gpu, std::span<const Case* const> cases, const Trial& trial, long most_steps) {

@@ -17,8 +17,12 @@ struct Outcome {
 /// Two at once take no more. What single cases want cannot be wanted of both at once: then only the rule is judged.
 inline constexpr long kStepsOfPair = 200;
 
-/// How much calm that ends with; less than kCalmS is not judged (rule.h).
-double planned_calm_s(std::span<const Case* const> cases, const Trial& trial, long most_steps);
+struct Plan {
+    long steps = 0;
+    double calm_s = 0.0;  ///< at the end; less than kCalmS is not judged (rule.h)
+};
+/// Of cases at once that want no more than so many steps.
+Plan plan_of(std::span<const Case* const> cases, const Trial& trial, long most_steps);
 
 /// Tries it, for at most `most_steps`.
 Outcome try_out(gles::Gpu& gpu, std::span<const Case* const> cases, const Trial& trial, long most_steps);

@@ -3,6 +3,7 @@
 
 #include "firmware/stability/case.h"
 #include "firmware/stability/criteria.h"
+#include "firmware/stability/rule.h"
 #include "firmware/stability/scene_parts.h"
 
 namespace eddy::stability {
@@ -41,6 +42,7 @@ Case cover(const char* name, const char* title, double share) {
         .complaint = pressure_holds(kStream + 0.2 * 2.0 * std::numbers::pi * 0.15 * 0.16),
         .least_steps = kLevelSteps,
         .calm_share = 0.0,
+        .calm_s = kCalmS,
         // What comes in below a lid of s L goes out at its edge, through half a cell at the last; and the stream goes
         // through what it leaves open.
         .narrowing =
@@ -84,13 +86,17 @@ std::vector<Case> wall_cases() {
          .title = "a piston in a closed tube squeezes what is before it",
          .provokes = "a pocket of its own: one more constant in its pressure, and no solution",
          .wants = "the pressure stays bounded, and does not drift unless it is small",
-         .when_red = "what a piston displaces in a closed tube has nowhere to go, and no incompressible flow "
-                     "does that. Guard "
-                     "pocket bounds the pressure; what the solver cannot place it leaves in the layer before "
-                     "the piston, from "
-                     "where the fluid flows off to the whole pocket, at some five times the piston's speed "
-                     "where its face lies "
-                     "within a cell. Energy and force stay within the rule",
+         .when_red =
+             "what a piston displaces in a closed tube has nowhere to go, and no incompressible flow "
+             "does that. Guard "
+             "pocket bounds the pressure; what the solver cannot place it leaves in the layer before "
+             "the piston, from "
+             "where the fluid flows off to the whole pocket, at some five times the piston's speed "
+             "where its face lies "
+             "within a cell. Energy and force stay within the rule. By how much a pocket's pressure is above "
+             "its neighbour's no equation says: a piston that has stopped feels what it felt last until the "
+             "pocket opens, "
+             "as it would in a fluid that cannot be compressed",
          .change =
              [](Scene& s) {
                  const glm::dvec3& size = s.tank.size_m;
@@ -100,7 +106,8 @@ std::vector<Case> wall_cases() {
              },
          .complaint = pressure_holds(std::numbers::pi * 0.15 * 0.16),
          .least_steps = kLevelSteps,
-         .calm_share = 0.0});
+         .calm_share = 0.0,
+         .calm_s = kCalmS});
     cases.push_back(
         {.number = 7,
          .name = "cup",
@@ -111,6 +118,7 @@ std::vector<Case> wall_cases() {
          .complaint = pressure_holds(0.4 * std::numbers::pi * 0.3 * 0.16),
          .least_steps = kLevelSteps,
          .calm_share = 0.0,
+         .calm_s = kCalmS,
          // Out of the cup, 0.5 by 0.36^2 of its side, through a slit as low as a cell's tenth: no more than this
          // is resolved.
          .narrowing = [](const glm::ivec3&) { return 4.0; }});
@@ -129,6 +137,7 @@ std::vector<Case> wall_cases() {
                          },
                      .complaint = gives_back_no_more(),
                      .calm_share = 0.0,
+                     .calm_s = kCalmS,
                      // What one end displaces, L^2, goes through the slit around it, 4 L times 0.4 cells.
                      .narrowing =
                          [](const glm::ivec3& n) {
@@ -148,7 +157,8 @@ std::vector<Case> wall_cases() {
                          },
                      .complaint = no_other_lines(10.0),
                      .least_steps = 160,  // four periods of what has settled
-                     .calm_share = 0.0});
+                     .calm_share = 0.0,
+                     .calm_s = kCalmS});
     return cases;
 }
 

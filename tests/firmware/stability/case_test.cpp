@@ -49,6 +49,33 @@ TEST(HardCase, GridsAreNamedAsTheyAreWritten) {
         EXPECT_THAT(complaint_about([&] { grid_named(wrong); }), HasSubstr("write a grid as")) << wrong;
 }
 
+TEST(HardCase, AfterItEndsNothingDrivesTheFluid) {
+    Scene scene = common_scene({glm::ivec3(8), Effort::Least});
+    scene.sources.resize(2);
+    scene.sources[1].stop_s = 1.0;
+    scene.tank.walls.x_low = {WallKind::Inflow, {{Formula(0.25), Formula::parse("x + t"), 0.0}}};
+    falls_silent(scene, 2.0);
+    EXPECT_EQ(scene.sources[0].stop_s, 2.0);
+    EXPECT_EQ(scene.sources[1].stop_s, 1.0);
+    const FormulaVector& u = *scene.tank.walls.x_low.velocity_m_s;
+    EXPECT_EQ(u.evaluate({0.5, 0.0, 0.0}, 1.9), glm::dvec3(0.25, 2.4, 0.0));
+    EXPECT_EQ(u.evaluate({0.5, 0.0, 0.0}, 2.1), glm::dvec3(0.0));
+    EXPECT_EQ(u.z.constant(), 0.0);
+}
+
+TEST(HardCase, AfterItEndsBodiesSlowDownWithoutAJerk) {
+    constexpr double kDt = 1e-3;
+    EXPECT_EQ(running_down_s(1.5, 2.0), 1.5);
+    double pace = 1.0;
+    for (double t = 2.0; t < 3.0; t += kDt) {
+        const double slower = (running_down_s(t + kDt, 2.0) - running_down_s(t, 2.0)) / kDt;
+        EXPECT_NEAR(slower, pace, 1.01 * kDt / kRunDownS) << t;
+        EXPECT_LE(slower, pace + 1e-9) << t;
+        pace = slower;
+    }
+    EXPECT_EQ(running_down_s(3.0, 2.0), running_down_s(2.0 + kRunDownS, 2.0));
+}
+
 TEST(HardCase, ChangesTheCommonSceneAlsoWhenOthersHave) {
     for (const Case& first : all_cases())
         for (const Case& second : all_cases()) {

@@ -49,6 +49,38 @@ TEST_F(TrialTest, FindsEnergyThatComesFromNowhere) {
     EXPECT_EQ(outcome.steps, 20) << "what is red shows how far it goes";
 }
 
+TEST_F(TrialTest, WhatDisturbsStopsAndThenTheFluidCalmsDown) {
+    const auto with_calm = [](double calm_s) {
+        return Case{.name = "stop",
+                    .drive = Drive::Steps,
+                    .change =
+                        [](Scene& s) {
+                            s.tank.walls.x_low = {WallKind::Inflow, {{0.2, 0.0, 0.0}}};
+                            s.tank.walls.x_high = {WallKind::Open, {}};
+                            Scene::Source& jet = s.sources.emplace_back();
+                            jet.name = "jet";
+                            jet.centre_m = 0.3 * s.tank.size_m;
+                            jet.velocity_m_s = glm::dvec3(0.5, 0.0, 0.0);
+                            s.bodies[0].motion = BodyMotion::Prescribed;
+                            s.bodies[0].oscillation = {.amplitude_m = {0.02, 0.0, 0.0}, .frequency_hz = 1.0};
+                            s.fluid.viscosity_pa_s = 1e-3 * s.fluid.density_kg_m3;
+                        },
+                    .complaint = [](const History& h) -> std::optional<std::string> {
+                        if (h.steps.size() == 20 && h.steps.back().disturbed) return {};
+                        return "judged at another time";
+                    },
+                    .steps = 20,
+                    .calm_share = 0.0,
+                    .calm_s = calm_s};
+    };
+    const Outcome outcome = outcome_of(with_calm(5.0));
+    EXPECT_TRUE(outcome.verdict.pass) << outcome.verdict.reason;
+    EXPECT_EQ(outcome.steps, 20 + 10 + 250);
+    EXPECT_TRUE(outcome.verdict.recovery_s);
+    EXPECT_EQ(outcome_of(with_calm(5.0), 10).steps, 10) << "cut short it has no calm";
+    EXPECT_FALSE(outcome_of(with_calm(0.0)).verdict.recovery_s);
+}
+
 TEST_F(TrialTest, FindsSmokeThatComesFromNowhere) {
     const Outcome outcome = outcome_of({.name = "spill",
                                         .script =
