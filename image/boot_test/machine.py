@@ -104,6 +104,7 @@ class Machine:
         self.began = time.monotonic()
         self.log = open(self.out / f"{name}.qemu.log", "wb")
         self.stuck_in = None
+        self.may_restart = False  # else it has not to
         self.asked = 0
         self.switch_on()
 
@@ -142,6 +143,12 @@ class Machine:
 
     def wait_for_off(self, seconds):
         until("the machine to switch itself off", seconds, lambda: self.process.poll() is not None)
+        if not self.is_off():
+            raise Failed(f"it did not switch itself off: see {self.name}.serial.log and {self.name}.qemu.log")
+
+    def is_off(self):
+        """QEMU ends in the same way when the machine starts again."""
+        return self.process.returncode == 0 and self.said().rstrip().endswith("reboot: Power down")
 
     def age_s(self):
         return time.monotonic() - self.began
@@ -154,8 +161,10 @@ class Machine:
         """A machine that starts again by itself does so from cold: OVMF 2022.11 on two emulated processors sometimes hangs in a warm start."""
         if self.process.poll() is None:
             return
-        if self.process.returncode != 0 or self.said().rstrip().endswith("reboot: Power down"):
+        if self.process.returncode != 0 or self.is_off():
             raise Failed(f"QEMU ended: see {self.name}.qemu.log")
+        if not self.may_restart:
+            raise Failed(f"the machine started again, which nobody asked for: see {self.name}.serial.log")
         self.hang_up()
         self.switch_on()
 
@@ -228,15 +237,22 @@ class Machine:
         """What a shell on the machine, as root, prints for this; fails if its status is not 0."""
         self.asked += 1
         end = f"@@{self.asked}@@"
-        self.agent_stream.settimeout(1.0)
-        self.agent_stream.sendall(f"( {script}\n) 2>&1 </dev/null; echo \"{end}$?.\"\n".encode())
+        self.alive()
+        stream = self.agent_stream
+        stream.settimeout(1.0)
+        try:
+            stream.sendall(f"( {script}\n) 2>&1 </dev/null; echo \"{end}$?.\"\n".encode())
+        except OSError as error:
+            raise Failed(f"nobody listens to: {script}: {error}") from error
         heard, deadline = b"", time.monotonic() + seconds
         while not (found := re.search(re.escape(end).encode() + rb"(\d+)\.\n", heard)):
             self.alive()
+            if stream is not self.agent_stream:
+                raise Failed(f"the machine started again before it answered to: {script}")
             if time.monotonic() > deadline:
                 raise Failed(f"no answer within {seconds} s to: {script}\n{heard.decode(errors='replace')}")
             try:
-                heard += self.agent_stream.recv(65536)
+                heard += stream.recv(65536)
             except TimeoutError:
                 pass
         text = heard[:found.start()].decode(errors="replace").replace("\r\n", "\n")

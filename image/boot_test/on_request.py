@@ -42,6 +42,7 @@ def update(bench):
         good = update_stick(bench, "update-good")
         bad = update_stick(bench, "update-bad", "--overlay", bench.out / "overlay")
     with bench.machine() as m:
+        m.may_restart = True
         e = Exhibit(m, bench.expected)
         with bench.step("a stick with an update: the machine starts again with it, and keeps it", fatal=True) as s:
             e.wait_for_show(PATIENCE)

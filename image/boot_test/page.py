@@ -8,7 +8,8 @@ force by what arrives at the Falcon, the lamps by the lines of the bridge. This 
 (`image/boot-test --page`); it says what the last run found, also where that is bad.
 
 Times are the emulated machine's. An emulated processor is far slower than a real one, most of all at what a fluid needs, so
-the fluid is tiny (8³ cells) and the picture small. A power cut here is one of the machine, not of its disk: what the disk had taken is kept. In steps that say *by its own clock* that clock counts instructions, a thousand million a second,
+the fluid is tiny (8³ cells) and the picture small. A power cut here is one of the machine, not of its disk: what the disk had taken is kept.
+A machine that starts again by itself is switched off and on (the emulated PC's firmware sometimes hangs in a warm start). In steps that say *by its own clock* that clock counts instructions, a thousand million a second,
 whatever else the computer underneath does; in the others it is the clock on the wall.
 """
 
