@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -24,18 +26,26 @@ void PrintTo(const Target& target, std::ostream* out) {
     *out << target.name;
 }
 
+/// Targets end the program if something does not hold: then this is the input.
+char current[256];
+void name_it(int) {
+    std::fprintf(stderr, "of the corpus: %s\n", current);
+}
+
 class FuzzCorpus : public testing::TestWithParam<Target> {};
 
 TEST_P(FuzzCorpus, IsTakenOrRefused) {
     const std::filesystem::path folder = std::filesystem::path(EDDY_FUZZ_CORPUS) / GetParam().name;
     int inputs = 0;
+    std::signal(SIGABRT, name_it);
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        SCOPED_TRACE(entry.path().filename().string());
+        std::snprintf(current, sizeof(current), "%s", entry.path().c_str());
         std::ifstream file(entry.path(), std::ios::binary);
         const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
         GetParam().takes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
         ++inputs;
     }
+    std::signal(SIGABRT, SIG_DFL);
     EXPECT_GT(inputs, 10);
 }
 
