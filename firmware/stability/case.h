@@ -120,7 +120,7 @@ std::vector<const Case*> cases_named(const std::string& name);
 /// The scene that all cases change: inviscid air with a ball of smoke, and a ball in the hand, 0.16 m long.
 Scene common_scene(const Trial& trial);
 
-/// From then on no source and no wall drives the fluid.
+/// In steps that begin then or later no source and no wall drives the fluid.
 void falls_silent(Scene& scene, double stop_s);
 /// The time that moves the scene's own bodies: it runs down to a halt within kRunDownS of stop_s.
 double running_down_s(double time_s, double stop_s);

@@ -42,14 +42,16 @@ Scene common_scene(const Trial& trial) {
 }
 
 void falls_silent(Scene& scene, double stop_s) {
+    // Times are sums of steps. A source counts as it is when a step begins, a wall as it is when it ends.
+    const double half_s = 0.5 * scene.solver.dt_s;
     for (Scene::Source& source : scene.sources)
-        source.stop_s = std::min(stop_s, source.stop_s.value_or(stop_s));
+        source.stop_s = std::min(stop_s - half_s, source.stop_s.value_or(stop_s));
     for (Scene::Wall* wall : scene.tank.walls.all()) {
         if (!wall->velocity_m_s) continue;
         for (Formula* u : {&wall->velocity_m_s->x, &wall->velocity_m_s->y, &wall->velocity_m_s->z}) {
             if (u->constant() == 0.0) continue;
             const std::string before = u->source() ? *u->source() : fmt::format("{:.17g}", *u->constant());
-            *u = Formula::parse(fmt::format("({}) * (t < {:.9g})", before, stop_s));
+            *u = Formula::parse(fmt::format("({}) * (t < {:.9g})", before, stop_s + half_s));
         }
     }
 }

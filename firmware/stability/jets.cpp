@@ -12,6 +12,11 @@ void rest_in_the_middle(Moment& moment) {
     moment.hand_m = moment.middle_m();
 }
 
+const char* const kSlowJet =
+    "what a slow jet leaves behind turns on for as long as friction in air lets it, minutes, and the ball "
+    "feels that; "
+    "the slower the jet, the larger a share of what it was. The force only falls";
+
 /// 1: a jet that crosses so many cells in a step.
 Case courant(double number) {
     return {.number = 1,
@@ -19,10 +24,7 @@ Case courant(double number) {
             .title = fmt::format("a jet crosses {:g} cells in a step, around a ball", number),
             .provokes = "transport that overshoots: new extremes of smoke and of velocity",
             .wants = "transport makes no new extremes of any component of the velocity",
-            .when_red =
-                "what a slow jet leaves behind turns on for as long as friction in air lets it, minutes, and "
-                "the ball "
-                "feels that; the slower the jet, the larger a share of what it was. The force only falls",
+            .when_red = number < 1.0 ? kSlowJet : "",
             .change =
                 [number](Scene& scene) {
                     Scene::Source& jet = scene.sources.emplace_back();

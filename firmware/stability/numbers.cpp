@@ -110,9 +110,9 @@ std::vector<Case> number_cases() {
                              s.initial.velocity_m_s = {board, board, board};
                          },
                      .complaint = energy_decays(100),
-                     .steps = 250,
+                     .steps = 200,
                      .least_steps = 120,
-                     .calm_share = 1.0});
+                     .calm_share = 0.0});
     cases.push_back(
         {.number = 26,
          .name = "checkerboard-pressure",

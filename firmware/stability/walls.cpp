@@ -40,6 +40,7 @@ Case cover(const char* name, const char* title, double share) {
                 ball(s) = lid;
             },
         .complaint = pressure_holds(kStream + 0.2 * 2.0 * std::numbers::pi * 0.15 * 0.16),
+        .steps = 625,  // it ends as far down as it comes
         .least_steps = kLevelSteps,
         .calm_share = 0.0,
         .calm_s = kCalmS,
@@ -86,17 +87,18 @@ std::vector<Case> wall_cases() {
          .title = "a piston in a closed tube squeezes what is before it",
          .provokes = "a pocket of its own: one more constant in its pressure, and no solution",
          .wants = "the pressure stays bounded, and does not drift unless it is small",
-         .when_red =
-             "what a piston displaces in a closed tube has nowhere to go, and no incompressible flow "
-             "does that. Guard "
-             "pocket bounds the pressure; what the solver cannot place it leaves in the layer before "
-             "the piston, from "
-             "where the fluid flows off to the whole pocket, at some five times the piston's speed "
-             "where its face lies "
-             "within a cell. Energy and force stay within the rule. By how much a pocket's pressure is above "
-             "its neighbour's no equation says: a piston that has stopped feels what it felt last until the "
-             "pocket opens, "
-             "as it would in a fluid that cannot be compressed",
+         .when_red = "what a piston displaces in a closed tube has nowhere to go, and no incompressible flow "
+                     "does that. Guard "
+                     "pocket bounds the pressure; what the solver cannot place it leaves in the layer before "
+                     "the piston, from "
+                     "where the fluid flows off to the whole pocket, at some five times the piston's speed "
+                     "where its face lies "
+                     "within a cell. "
+                     "Energy stays within the rule. By how much a pocket's pressure is above its neighbour's "
+                     "no equation says: "
+                     "a piston that has stopped feels what it felt last, for each step begins from the last "
+                     "pressure, until the pocket opens. "
+                     "The hand is held to its limits, and who does not move gets no force after some seconds",
          .change =
              [](Scene& s) {
                  const glm::dvec3& size = s.tank.size_m;
@@ -116,6 +118,7 @@ std::vector<Case> wall_cases() {
          .wants = "the pressure stays bounded, and does not drift unless it is small",
          .change = cup,
          .complaint = pressure_holds(0.4 * std::numbers::pi * 0.3 * 0.16),
+         .steps = 625,  // it ends on the floor
          .least_steps = kLevelSteps,
          .calm_share = 0.0,
          .calm_s = kCalmS,
