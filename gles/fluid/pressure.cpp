@@ -92,10 +92,8 @@ Pressure::Pressure(Gpu& gpu, const glm::ivec3& cells, const Fractions* fractions
         Level& level = levels_[l];
         const AtlasLayout here = Cells4::layout(grids[l]);
         if (l + 1 == grids.size()) {
-            level.solve.emplace(
-                make(gpu, "solve", "gles/fluid/solve_coarsest.frag", l, here,
-                     {.defines = {{"SWEEPS", fmt::format("{}", solver_.size())}, {"OMEGA", glsl(solver_)}}},
-                     walls));
+            level.solve.emplace(make(gpu, "solve", "gles/fluid/solve_coarsest.frag", l, here,
+                                     {.defines = {{"OMEGA", glsl(solver_)}}}, walls));
             break;
         }
         level.sweep.emplace(make(gpu, "smooth", "gles/fluid/smooth.frag", l, here, {}, walls));
@@ -171,11 +169,14 @@ Field<Cells4> Pressure::sweep_from_zero(std::size_t l, const Field<Cells4>& b, f
 }
 
 void Pressure::sweep_rough(Field<Cells4>& phi, const Field<Cells4>& b, const std::vector<Box>& boxes) {
-    // There and back: the first sweep covers what the second reads, so phi stays whole outside the boxes.
+    // There and back: the first sweep covers what the second reads, so phi stays whole outside the boxes. Drawn are whole slabs
+    // of four, each of which reads one beyond.
     Field<Cells4> there(*gpu_, levels_[0].cells, Format::RGBA32F);
-    std::vector<Box> near = boxes, wider = boxes;
-    for (Box& box : near) box = box.grow(kRoughReach);
-    for (Box& box : wider) box = box.grow(kRoughReach + 1);
+    std::vector<Box> near = boxes, wider;
+    for (Box& box : near) {
+        box = box.grow(kRoughReach);
+        wider.push_back({box.lo - glm::ivec3(1, 1, 4), box.hi + glm::ivec3(1, 1, 4)});
+    }
     const auto sweep = [&](const Field<Cells4>& from, float omega, const Field<Cells4>& to,
                            const std::vector<Box>& where) {
         draw(*levels_[0].sweep, 0, {{"phi", &from.texture()}, {"b", &b.texture()}}, {{"omega", omega}},

@@ -110,6 +110,20 @@ TEST_F(PressureSolve, EachCycleCutsTheResidualToASixthOrLess) {
     }
 }
 
+TEST_F(PressureSolve, SweepsAroundSourcesReadOnlyWhatWasDrawn) {
+    const glm::ivec3 n(8, 8, 64);
+    const std::size_t count = 8 * 8 * 64;
+    Pressure pressure(gpu, n, nullptr, Walls(closed));
+    for (int low = 24; low < 28; ++low) {
+        const Field<Cells4> b = upload(gpu, n, std::vector<float>(count, 0.0f));
+        Field<Cells4> phi = upload(gpu, n, std::vector<float>(count, 1.0f));
+        upload(gpu, n, std::vector<float>(count, NAN));  // whatever texture is taken next
+        phi = pressure.solve(std::move(phi), b, {.cycles = 0, .rough = {{{2, 2, low}, {6, 6, low + 3}}}});
+        for (const float p : unpack_four(phi.texture().download(), phi.layout(), n))
+            ASSERT_EQ(p, 1.0f) << low;
+    }
+}
+
 TEST_F(PressureSolve, AStepOfAnotherLengthStartsFromTheSamePressure) {
     // phi = dt p / (rho h): with half the time step the old pressure means half the old phi, nothing to solve.
     const glm::ivec3 n(24, 20, 22);
