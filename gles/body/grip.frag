@@ -20,6 +20,7 @@ layout(location = 0) out vec4 w;
 layout(location = 1) out vec4 surface;
 #endif
 
+#include "beyond_walls.glsl"
 #include "reach.glsl"
 const float kLeastMiddle = 0.02;
 
@@ -34,16 +35,14 @@ void main() {
     vec3 stretch = vec3(0.0), curvature = vec3(0.0), normal[3];
     for (int axis = 0; axis < 3; ++axis) {
         ivec3 e = ivec3(equal(ivec3(axis), ivec3(0, 1, 2)));
-        vec3 side[2];
-        for (int way = 0; way < 2; ++way) {
-            ivec3 to = way == 0 ? c - e : c + e;
-            vec3 d_nb = at_clamped(distances, FACES, to).xyz, v_nb = at_clamped(shares, FACES, to).xyz;
-            vec3 link = 0.5 * (v + v_nb) * vec3(greaterThan(v_nb, vec3(0.0)));
-            stretch += link * (middle(d_nb) - delta);
-            curvature += d_nb - d;
-            side[way] = d_nb;
-        }
-        normal[axis] = 0.5 * (side[1] - side[0]);
+        vec3 low = at_clamped(distances, FACES, c - e).xyz, high = at_clamped(distances, FACES, c + e).xyz;
+        go_on_beyond_walls(c, axis, d, low, high);
+        vec3 v_low = at_clamped(shares, FACES, c - e).xyz;
+        vec3 v_high = mix(at_clamped(shares, FACES, c + e).xyz, v, last_before_wall(c, axis));
+        stretch += 0.5 * (v + v_low) * vec3(greaterThan(v_low, vec3(0.0))) * (middle(low) - delta);
+        stretch += 0.5 * (v + v_high) * vec3(greaterThan(v_high, vec3(0.0))) * (middle(high) - delta);
+        curvature += low + high - 2.0 * d;
+        normal[axis] = 0.5 * (high - low);
     }
     for (int k = 0; k < 3; ++k) {
         float slope = length(vec3(normal[0][k], normal[1][k], normal[2][k]));

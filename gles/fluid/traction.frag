@@ -18,6 +18,7 @@
 #ifdef VISCOUS
 uniform sampler2D velocity, distances, grips, surface;
 uniform float lambda;  // nu dt / h^2
+#include "beyond_walls.glsl"
 #endif
 uniform sampler2D phi, ax, ay, az;
 uniform ivec3 box_low, box_high;  // in cells; z in slabs of four
@@ -49,8 +50,9 @@ void add_friction(ivec3 c) {
     vec3 slope[3];
     for (int axis = 0; axis < 3; ++axis) {
         ivec3 e = ivec3(equal(ivec3(axis), ivec3(0, 1, 2)));
-        slope[axis] =
-            0.5 * (at_clamped(distances, FACES, c + e).xyz - at_clamped(distances, FACES, c - e).xyz);
+        vec3 low = at_clamped(distances, FACES, c - e).xyz, high = at_clamped(distances, FACES, c + e).xyz;
+        go_on_beyond_walls(c, axis, d, low, high);
+        slope[axis] = 0.5 * (high - low);
     }
     vec3 f = lambda * at(grips, FACES, c).xyz * (at(velocity, FACES, c).xyz - at(surface, FACES, c).xyz);
     for (int k = 0; k < 3; ++k) {

@@ -2,7 +2,7 @@
 //
 // A link joins a face to the next face of the same component. Where a wall the fluid sticks to lies between, w = 2 and u_nb
 // is the wall's velocity (FRICTION_*, walls.h). Variant CUT: the link is as wide as the mean share of fluid in the two
-// faces' cells, and a body's surface holds on to its faces as grip.frag says. Variant CORRECTION: walls and bodies stand still,
+// faces' cells, that to a wall as the face's own, and a body's surface holds on to its faces as grip.frag says. Variant CORRECTION: walls and bodies stand still,
 // as on the coarse grids.
 // Variant TO_WALL (vec3): on such a grid the last cell of an axis may lie in the tank only in part; so much stronger is the link
 // from the last free face to that on the wall. Without it a grid of one more than a power of two cells has its coarsest
@@ -59,6 +59,7 @@ void links(sampler2D velocity, ivec3 c, int axis, int sign, vec3 share, inout ve
     }
 #ifdef CUT
     vec3 share_nb = at_clamped(shares, FACES, c + e).xyz;
+    if (at_wall) share_nb = mix(share, share_nb, along);
     w *= 0.5 * (share + share_nb) * vec3(greaterThan(share_nb, vec3(0.0)));
 #endif
     sum += w * value;
