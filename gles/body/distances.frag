@@ -17,10 +17,6 @@ layout(location = 1) out vec4 v;
 
 #ifndef COARSE
 #include "open.glsl"
-
-float lane(sampler2D a, ivec3 c) {
-    return lane(share(at(a, FRACTION, ivec3(c.xy, c.z >> 2))), c.z);  // guard shares
-}
 #endif
 
 void main() {
@@ -29,7 +25,8 @@ void main() {
     d = vec4(solid_distance(SCALE * (x + vec3(0.0, 0.5, 0.5))), solid_distance(SCALE * (x + vec3(0.5, 0.0, 0.5))),
              solid_distance(SCALE * (x + vec3(0.5, 0.5, 0.0))), 0.0) / SCALE;
 #ifndef COARSE
-    v = vec4(lane(ax, c), lane(ay, c), lane(az, c), 0.0);
+    ivec3 slab = ivec3(c.xy, c.z >> 2);
+    v = vec4(share_in(ax, FRACTION, slab, c.z), share_in(ay, FRACTION, slab, c.z), share_in(az, FRACTION, slab, c.z), 0.0);
 #else
     v = smoothstep(-kReach, kReach, d);
 #endif

@@ -6,14 +6,16 @@
 uniform sampler2D field;
 
 #ifdef CUT
+#include "open.glsl"
+
 uniform sampler2D ax, ay, az;
 
 // Of the lower and upper faces of a cell.
 void openings(ivec3 c, out vec3 low, out vec3 high) {
     ivec3 here = ivec3(c.xy, c.z >> 2), above = ivec3(c.xy, (c.z + 1) >> 2);
-    low = vec3(lane(at(ax, FRACTION, here), c.z), lane(at(ay, FRACTION, here), c.z), lane(at(az, FRACTION, here), c.z));
-    high = vec3(lane(at(ax, FRACTION, here + ivec3(1, 0, 0)), c.z), lane(at(ay, FRACTION, here + ivec3(0, 1, 0)), c.z),
-                lane(at(az, FRACTION, above), c.z + 1));
+    low = vec3(share_in(ax, FRACTION, here, c.z), share_in(ay, FRACTION, here, c.z), share_in(az, FRACTION, here, c.z));
+    high = vec3(share_in(ax, FRACTION, here + ivec3(1, 0, 0), c.z), share_in(ay, FRACTION, here + ivec3(0, 1, 0), c.z),
+                share_in(az, FRACTION, above, c.z + 1));
 }
 #else
 void openings(ivec3 c, out vec3 low, out vec3 high) {

@@ -16,7 +16,7 @@ out vec4 result;
 
 float value(ivec3 c) {
 #ifdef FROM_FOUR
-    return dot(at(source, SOURCE, ivec3(c.xy, c.z >> 2)), vec4(equal(ivec4(c.z & 3), ivec4(0, 1, 2, 3))));
+    return lane(at(source, SOURCE, ivec3(c.xy, c.z >> 2)), c.z);
 #else
     return at(source, SOURCE, c).x;
 #endif
@@ -30,7 +30,7 @@ float resampled(ivec3 c) {
 void main() {
     ivec3 c = cell_here(TARGET);
 #ifdef TO_FOUR
-    for (int lane = 0; lane < 4; ++lane) result[lane] = resampled(ivec3(c.xy, 4 * c.z + lane));
+    for (int layer = 0; layer < 4; ++layer) result[layer] = resampled(ivec3(c.xy, 4 * c.z + layer));
 #else
     result = vec4(resampled(c));
 #endif

@@ -229,6 +229,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Kind{.name = "Fast"}, Kind{.name = "FastInBoxes", .cells = 25},
         Kind{.name = "MacCormack", .advection = Advection::MacCormack, .heat = true},
+        Kind{.name = "HeatInBoxes", .cells = 25, .heat = true},
         Kind{.name = "SecondOrder", .advection = Advection::MacCormack, .time_order = 2},
         Kind{.name = "Viscous", .viscous = true},
         Kind{.name = "ViscousInBoxes", .cells = 25, .viscous = true}, Kind{.name = "ThinPlate", .thin = true},
