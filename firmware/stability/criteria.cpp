@@ -86,7 +86,7 @@ Criterion energy_levels_off_or_is_small() {
 
 Criterion energy_never_rises() {
     return [](const History& history) -> Complaint {
-        double least = std::numeric_limits<double>::infinity();
+        double least = history.start_energy_j;
         for (const History::Look& look : history.looks) {
             if (look.energy_j > 1.001 * least)
                 return fmt::format("kinetic energy rose by {:.2g} % by step {}",

@@ -21,7 +21,7 @@ constexpr Seconds kVisit{120.0};  ///< after which PersonMotion repeats
 constexpr double kForceDrift = 0.05;
 constexpr double kMemoryDriftMib = 1.0;
 /// The mean pressure of a closed tank is put back to 0 in each step (gles/fluid/pressure_level.h): what is left is noise about 0,
-/// and no share of itself. It may change by this share of rho (L / dt)^2, the pressure at which the guard `pocket` sets in
+/// and no share of itself. It may change by this share of rho (L / dt)^2, twice the pressure at which the guard `pocket` sets in
 /// (gles/guard.glsl). In 16 cm of water and steps of 20 ms that is 6 Pa, 10 mN on the side of a body of 4 cm; a hand that stirs
 /// makes noise of 4e-6.
 constexpr double kPressureDrift = 1e-4;

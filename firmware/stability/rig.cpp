@@ -28,8 +28,10 @@ class Steps final : public Rig {
         if (const auto held = motions_.held()) {
             gles::BodyState& body = bodies[*held];
             body.centre_m = moment.hand_m;
-            body.velocity_m_s = at_m_ ? (moment.hand_m - *at_m_) / moment.dt_s : glm::dvec3(0.0);
-            at_m_ = moment.hand_m;
+            if (passes_s > 0.0) {  // else it stays where it was
+                body.velocity_m_s = at_m_ ? (moment.hand_m - *at_m_) / passes_s : glm::dvec3(0.0);
+                at_m_ = moment.hand_m;
+            }
         }
         if (change_) change_(moment, bodies);
         fluid_->step(moment.dt_s, bodies, false);
@@ -87,12 +89,13 @@ class Exhibit final : public Rig {
         exchange_.pose.publish(hand);
         // The longest step that eddy run asks for after a stall.
         show_.update(now, Seconds(std::min(moment.dt_s, 0.1)), false);
-        if (moment.holds_answer) return;
+        unknown_ = moment.holds_answer;
+        if (unknown_) return;
         show_.publish(true);
         answer_ = exchange_.fluid.newest();
     }
     std::vector<gles::Load> loads() override {
-        if (!holds_) return {};
+        if (!holds_ || unknown_) return {};
         return {{answer().force_n, answer().torque_nm}};
     }
     FluidSnapshot answer() override { return answer_; }
@@ -110,7 +113,8 @@ class Exhibit final : public Rig {
     Show show_;
     FluidSnapshot answer_{};  ///< the last that reached the hand
     Quality quality_;
-    bool holds_;  ///< a body
+    bool holds_;            ///< a body
+    bool unknown_ = false;  ///< what this step did to it
 };
 
 }  // namespace

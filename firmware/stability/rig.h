@@ -12,7 +12,7 @@ class Rig {
     virtual ~Rig() = default;
     /// A step as the moment says. `hand`: where the hand is, at `now`.
     virtual void step(const Moment& moment, const PoseSnapshot& hand, Instant now) = 0;
-    /// Loads of that step, as they came back; one for each body, or the held body's alone.
+    /// Loads of that step, as they came back; one for each body, or the held body's alone. Empty where none came.
     virtual std::vector<gles::Load> loads() = 0;
     /// The same by other ways, where the scene asks for them; else empty.
     std::vector<gles::ForceMethods> force_methods() const { return fluid().force_methods(); }

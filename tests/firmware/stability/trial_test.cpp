@@ -167,6 +167,24 @@ TEST_F(TrialTest, AfterAStepThatIsRefusedBodiesMoveOn) {
     EXPECT_NEAR(last_x, 0.08 + 0.02 * std::sin(2.0 * std::numbers::pi * 0.38), 1e-9);
 }
 
+TEST_F(TrialTest, AcrossAStepThatIsRefusedTheHandsBodyIsAsFastAsItGoes) {
+    for (const double dt_s : {std::numeric_limits<double>::quiet_NaN(), 900.0}) {
+        Case one = clock_says(dt_s);
+        long moved = 0;
+        one.complaint = [&](const History& history) -> std::optional<std::string> {
+            for (std::size_t n = 1; n < history.steps.size(); ++n) {
+                const History::Step &before = history.steps[n - 1], &now = history.steps[n];
+                const glm::dvec3 way = now.bodies[0].centre_m - before.bodies[0].centre_m;
+                EXPECT_LT(glm::length(way - now.dt_s * now.bodies[0].velocity_m_s), 1e-9) << n;
+                moved += glm::length(way) > 1e-4;
+            }
+            return {};
+        };
+        outcome_of(one);
+        EXPECT_GT(moved, 10);
+    }
+}
+
 TEST_F(TrialTest, OnlyTimeThatTheFluidTookPasses) {
     const auto lasts_s = [&](double dt_s) {
         Case one = clock_says(dt_s);
