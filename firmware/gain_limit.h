@@ -6,7 +6,8 @@
 
 namespace eddy {
 
-/// How steeply a fluid answers the body in the visitor's hand, before gain, along the axis where it does so most.
+/// How steeply a fluid answers the body in the visitor's hand, before gain, along the axis where it does so most; a ball alone in the
+/// tank, along the one with most room.
 struct FluidSlopes {
     double drag_ns_m = 0.0;  ///< at the speed of a hand that stirs briskly
     double added_kg = 0.0;

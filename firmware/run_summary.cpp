@@ -41,7 +41,7 @@ void print_summary(const RunLength& length, const Act& act, const Graphics& grap
                f.divergence_before_1_s, f.divergence_after_1_s,
                f.divergence_after_1_s > 0.0 ? f.divergence_before_1_s / f.divergence_after_1_s : 0.0);
     fmt::print("force       {:.3g} to {:.3g} N from the fluid after gain, at most {:.3g} N sent\n",
-               f.least_force_n, f.most_force_n, hand.sent_most_n());
+               f.least_force_n.value_or(0.0), f.most_force_n, hand.sent_most_n());
     fmt::print("haptic loop {} ticks in {:.1f} s: {:.0f} Hz; {} late, {} left out, worst {:.2f} ms\n",
                loop.ticks, length.hand_s,
                length.hand_s > 0.0 ? static_cast<double>(loop.ticks) / length.hand_s : 0.0, loop.late,

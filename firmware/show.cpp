@@ -263,7 +263,7 @@ void Show::publish(bool wait) {
         const glm::dvec3 felt_force = load.force_n * gain_;
         ripple_.add(computed_for, felt_force);
         const double felt = glm::length(felt_force);
-        figures_.least_force_n = answer_.sequence == 1 ? felt : std::min(figures_.least_force_n, felt);
+        figures_.least_force_n = std::min(figures_.least_force_n.value_or(felt), felt);
         figures_.most_force_n = std::max(figures_.most_force_n, felt);
     }
 }

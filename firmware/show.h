@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "config/scene.h"
 #include "firmware/body_schedule.h"
@@ -19,9 +20,11 @@ namespace eddy {
 /// Ranges over the run, for the summary and the status page.
 struct ShowFigures {
     long steps = 0;
-    double fluid_period_s = 0.0;                     ///< smoothed time between fluid updates
-    double least_force_n = 0.0, most_force_n = 0.0;  ///< of |raw force| on the hand, after gain
-    double divergence_before_1_s = 0.0;              ///< of the last step that was diagnosed
+    double fluid_period_s = 0.0;  ///< smoothed time between fluid updates
+    std::optional<double>
+        least_force_n{};  ///< of |raw force| on the hand, after gain; none: it got no answer
+    double most_force_n = 0.0;
+    double divergence_before_1_s = 0.0;  ///< of the last step that was diagnosed
     double divergence_after_1_s = 0.0;
     std::optional<double> fluid_speed_m_s{};  ///< rms over the tank, of that step
     long rested = 0;                          ///< updates left out because nothing moved

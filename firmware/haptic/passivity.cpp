@@ -27,7 +27,7 @@ void Passivity::received(double received_j, double stored_j, Instant pose_time) 
     Entry then = now_;
     for (std::size_t back = 1; back <= kKept; ++back) {
         const Entry& entry = past_[(next_ + kKept - back) % kKept];
-        if (entry.at > then.at) break;  // not written yet, or from before the last beginning
+        if (entry.at > then.at) break;  // from before the last beginning; what was never written is of the very beginning
         then = entry;
         if (entry.at <= pose_time) break;
     }
