@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <functional>
-
+#include "firmware/dated_files.h"
 #include "firmware/haptic/flight_file.h"
 #include "firmware/text_file.h"
 #include "firmware/utc_stamp.h"
@@ -19,14 +17,7 @@ constexpr std::string_view kExtension = ".flight";
 }  // namespace
 
 std::vector<std::filesystem::path> flights_in(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> files;
-    std::error_code error;
-    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error))
-        if (entry->path().extension() == kExtension) files.push_back(entry->path());
-    // Their names begin with the time.
-    std::sort(files.begin(), files.end(), std::greater<>());
-    return files;
+    return dated_files(folder, "", kExtension);
 }
 
 FlightKeeper::FlightKeeper(FlightRecorder& recorder, std::filesystem::path folder)
@@ -52,12 +43,9 @@ void FlightKeeper::keep(Flight flight) {
     try {
         make_folder(folder_);
         const std::string stem = fmt::format("{}-{}", utc_stamp("%Y%m%dT%H%M%SZ"), to_word(flight.cause));
-        std::filesystem::path file = folder_ / fmt::format("{}{}", stem, kExtension);
-        for (int n = 2; std::filesystem::exists(file); ++n)
-            file = folder_ / fmt::format("{}-{}{}", stem, n, kExtension);
+        const std::filesystem::path file = unused_file(folder_, stem, kExtension);
         replace_text_file(file, flight_text(flight));
-        const std::vector<std::filesystem::path> files = flights_in(folder_);
-        for (std::size_t i = kMostFiles; i < files.size(); ++i) std::filesystem::remove(files[i]);
+        keep_newest(flights_in(folder_), kMostFiles, file);
         ++kept_;
         said = fmt::format("{}: the seconds before are in {}; eddy replay runs them again",
                            to_string(flight.cause), file.string());

@@ -11,9 +11,9 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <functional>
 
 #include "firmware/built_from.h"
+#include "firmware/dated_files.h"
 #include "firmware/haptic/flight_file.h"
 #include "firmware/text_file.h"
 #include "firmware/utc_stamp.h"
@@ -33,7 +33,7 @@ std::string bytes_of(const fs::path& file) {
 }
 
 constexpr std::array kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
-constexpr std::string_view kPending = "crash.pending";
+constexpr std::string_view kPending = "crash.pending", kPrefix = "crash-";
 /// Between the text and what the recorder has in memory.
 constexpr std::string_view kMemory = "\n-- memory of the flight recorder --\n";
 
@@ -110,23 +110,6 @@ void on_crash(int signal) {
     ::raise(signal);  // blocked until this returns; then the default action
 }
 
-/// Of the files of crashes that end so, all but the newest go; their names hold the time.
-void keep_newest(const fs::path& folder, std::string_view extension) {
-    std::vector<fs::path> files;
-    std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-        if (entry->path().filename().string().starts_with("crash-") && entry->path().extension() == extension)
-            files.push_back(entry->path());
-    std::sort(files.begin(), files.end(), std::greater<>());
-    for (std::size_t i = CrashRecord::kMostKept; i < files.size(); ++i) fs::remove(files[i], error);
-}
-
-fs::path unused(const fs::path& folder, const std::string& stem, std::string_view extension) {
-    fs::path file = folder / fmt::format("{}{}", stem, extension);
-    for (int n = 2; fs::exists(file); ++n) file = folder / fmt::format("{}-{}{}", stem, n, extension);
-    return file;
-}
-
 }  // namespace
 
 CrashRecord::CrashRecord(const fs::path& folder, const LineRing& lines) : file_(folder / kPending) {
@@ -178,9 +161,9 @@ std::vector<std::string> CrashRecord::take_over(const fs::path& folder) {
     const std::size_t split = bytes.find(kMemory);
     const std::string text = bytes.substr(0, split);
     const std::string memory = split == std::string::npos ? "" : bytes.substr(split + kMemory.size());
-    const std::string stem = utc_stamp("crash-%Y%m%dT%H%M%SZ");
+    const std::string stem = std::string(kPrefix) + utc_stamp("%Y%m%dT%H%M%SZ");
     try {
-        const fs::path record = unused(folder, stem, ".txt");
+        const fs::path record = unused_file(folder, stem, ".txt");
         replace_text_file(record, text);
         said.push_back(fmt::format("the program ended badly ({}); what it knew then is in {}",
                                    text.substr(0, text.find('\n')), record.string()));
@@ -190,17 +173,17 @@ std::vector<std::string> CrashRecord::take_over(const fs::path& folder) {
         if (auto flight = same ? FlightRecorder::read_raw(memory) : std::nullopt) {
             flight->version = EDDY_VERSION;
             flight->written = utc_stamp();
-            const fs::path file = unused(folder, stem, ".flight");
+            const fs::path file = unused_file(folder, stem, ".flight");
             replace_text_file(file, flight_text(*flight));
             said.back() += fmt::format(
                 ", and the last seconds of the hand in {}: eddy replay runs them again", file.string());
+            keep_newest(dated_files(folder, kPrefix, ".flight"), kMostKept, file);
         }
+        keep_newest(dated_files(folder, kPrefix, ".txt"), kMostKept, record);
         fs::remove(pending, error);
     } catch (const std::exception& e) {
         said.push_back(fmt::format("the record of a crash could not be kept: {}", e.what()));
     }
-    keep_newest(folder, ".txt");
-    keep_newest(folder, ".flight");
     return said;
 }
 

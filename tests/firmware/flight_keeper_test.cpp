@@ -60,6 +60,20 @@ TEST(FlightKeeper, KeepsTwentyAndTheOldestGoFirst) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "notes.txt"));
 }
 
+TEST(FlightKeeper, WhatTheLogNamesIsThereThoughTheClockHasGoneBack) {
+    const ScratchFolder folder;
+    for (int day = 10; day < 30; ++day)
+        std::ofstream(folder.path() / fmt::format("209901{}T000000Z-stopped.flight", day)) << "later";
+    LoopRig rig;
+    FlightKeeper keeper(rig.flights, folder.path());
+    stop_it(rig);
+    keeper.finish();
+    const auto files = flights_in(folder.path());
+    ASSERT_EQ(files.size(), FlightKeeper::kMostFiles);
+    EXPECT_THAT(keeper.news().value_or(""), HasSubstr(files.back().string()));
+    EXPECT_GT(std::filesystem::file_size(files.back()), 1000U);
+}
+
 TEST(FlightKeeper, AFolderThatCannotBeDoesNotStopTheShow) {
     const ScratchFolder folder;
     std::ofstream(folder.path() / "file") << "x";
