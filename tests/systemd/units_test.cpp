@@ -1,7 +1,9 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
 #include <regex>
 
 #include "tests/end_to_end/program.h"
@@ -53,7 +55,8 @@ TEST(UnitsOfTheImage, AreAllThatWantToBeStarted) {
     const std::string enabled = list.substr(begin, list.find('[', begin + 1) - begin);
     int wanted = 0;
     for (const auto& entry : std::filesystem::directory_iterator(kUnits)) {
-        if (!entry.is_regular_file() || read_all(entry.path()).find("\nWantedBy=") == std::string::npos) continue;
+        if (!entry.is_regular_file() || read_all(entry.path()).find("\nWantedBy=") == std::string::npos)
+            continue;
         EXPECT_THAT(enabled, HasSubstr(entry.path().filename().string()));
         ++wanted;
     }
@@ -89,6 +92,26 @@ TEST(EddyService, BearsWithEightSecondsOfSilenceAndIsStartedAgainAtOnce) {
     EXPECT_THAT(values_of("Restart"), ElementsAre("always"));
     EXPECT_THAT(values_of("RestartSec"), ElementsAre("200ms"));
     EXPECT_THAT(values_of("StartLimitAction"), ElementsAre("reboot"));
+}
+
+/// Of a kind that the kernel has not heard of when the service starts, systemd allows none for as long as it runs.
+TEST(EddyService, WaitsForEachKindOfDeviceThatComesWithAModule) {
+    const std::string unit = read_all(kUnits / "eddy.service");
+    const std::map<std::string, std::string> modules{
+        {"drm", "drm"}, {"usb_device", "usbcore"}, {"gpiochip", ""}};
+    const std::regex kind("\nDeviceAllow=char-(\\w+)");
+    int kinds = 0;
+    for (std::sregex_iterator found(unit.begin(), unit.end(), kind), end; found != end; ++found, ++kinds) {
+        const std::string name = (*found)[1];
+        ASSERT_TRUE(modules.contains(name)) << name << ": built into the kernel, or of which module?";
+        const std::string& module = modules.at(name);
+        if (module.empty()) continue;
+        for (const char* key : {"Wants", "After"})
+            EXPECT_TRUE(
+                std::regex_search(unit, std::regex(fmt::format("\n{}=.*modprobe@{}\\.service", key, module))))
+                << key << ' ' << module;
+    }
+    EXPECT_EQ(kinds, 3);
 }
 
 TEST(EddyService, LetsTheRasteriserWriteCodeAndGivesNoThreadPriorityUnasked) {
