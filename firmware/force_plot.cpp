@@ -71,7 +71,7 @@ std::optional<std::filesystem::path> plot_forces(const std::filesystem::path& fo
         fmt::format("set border 31\n"
                     "$path << EOD\n{}EOD\n"
                     "set title 'Hand (blue) and force on it (red; the longest arrow is {:.2f} N)'\n"
-                    "set xlabel 'x right [mm]'\nset ylabel 'z to the visitor [mm]'\n"
+                    "set xlabel 'x right [mm]' offset 0,-1\nset ylabel 'z to the visitor [mm]' offset 7,-1\n"
                     "set zlabel 'y up [mm]' rotate parallel\n"
                     "set view 70, 25\nset view equal xyz\nset xyplane relative 0\nset key off\n{}"
                     "splot $path using 1:2:3:4:5:6 with vectors nohead lc rgb '#d03020', \\\n"

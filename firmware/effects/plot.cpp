@@ -8,7 +8,7 @@
 namespace eddy::effects {
 namespace {
 
-constexpr int kAbove = 80, kBelow = 60;  ///< room for title and axes [px]
+constexpr int kAbove = 80, kBelow = 90;  ///< room for title, axes and key [px]
 
 /// Columns: row, and both ways to add the effect as p25, p50, p75 of ms, and MB.
 std::string row_text(const EffectCosts& m, std::size_t place, const EffectStudy::Row& row) {
@@ -53,7 +53,7 @@ bool plot(const EffectCosts& m, const gles::Capabilities& driver, const std::fil
         "set style fill solid 0.85 noborder\nset border 1\n"
         "set yrange [{}:-0.7]\nset ytics ({}) scale 0\nset xtics out\nset grid noytics\n"
         "set arrow 1 from 0, graph 0 to 0, graph 1 nohead lc rgb '#404040'\n"
-        "set key bottom right spacing 1.2 opaque\n"
+        "set key at screen 0.5, screen {} center bottom horizontal\n"
         "set tmargin at screen {}\nset bmargin at screen {}\n"
         "set lmargin at screen 0.15\nset rmargin at screen 0.66\n"
         "set xlabel '{} time added [ms a step]'\n"
@@ -70,8 +70,8 @@ bool plot(const EffectCosts& m, const gles::Capabilities& driver, const std::fil
         "'#2050c0', \\\n"
         "     '' using (0.5*$9):($1+0.19):(0.5*$9):(0.17) with boxxyerror lc rgb '#e09020'\n"
         "unset multiplot\n",
-        data, title, static_cast<double>(rows.size()) - 0.3, names, 1.0 - kAbove / height, kBelow / height,
-        to_string(m.clock));
+        data, title, static_cast<double>(rows.size()) - 0.3, names, 6.0 / height, 1.0 - kAbove / height,
+        kBelow / height, to_string(m.clock));
     return !draw_with_gnuplot({{picture, 1200, height_px, commands}}).empty();
 }
 

@@ -108,10 +108,10 @@ GnuplotPicture energy_picture(const Study& study, const std::filesystem::path& f
                                 in_gnuplot_quotes(fmt::format("{}, {}", names[f], to_string(law))));
         }
     return {
-        folder / "energy.png", 760, 460,
+        folder / "energy.png", 900, 460,
         data +
             "set logscale x\nset xrange [0.4:6]\nset xtics (0.5, 1, 2, 5)\nset xlabel 'the hand stirs [Hz]'\n"
-            "set ylabel 'cost of a cycle / work of such a drag'\nset key top left\n"
+            "set ylabel 'cost of a cycle / work of such a drag'\nset key outside right top reverse Left\n"
             "set title 'Energy at 20 answers a second: below 0 the force drives the hand'\n"
             "set arrow 1 from 0.4,0 to 6,0 nohead lc rgb '#404040'\n" +
             plot + "\n"};
