@@ -143,7 +143,9 @@ std::string formula_guide() {
         "^ and brackets, comparisons (1 if true, 0 if not), the choice a ? b : c or if(a, b, c), and the "
         "functions {}. ^ binds tightest, then the minus sign: -x^2 is -(x^2). mod(a, b) has the sign of b; "
         "step(a, x) is 1 from x = a on; smoothstep(a, b, x) rises from 0 at a to 1 at b; atan2(b, a) is the "
-        "angle of the point (a, b); log is to the base e.",
+        "angle of the point (a, b); log is to the base e. t begins with the scene; GPUs have it as a number "
+        "of "
+        "32 bits, which a day later goes in steps of 8 ms.",
         fmt::join(function_names(), ", "));
 }
 

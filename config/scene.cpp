@@ -16,6 +16,43 @@ extern const std::span<const EmbeddedFile> kSceneFiles;
 
 namespace {
 
+constexpr std::string_view kReferenceHead = R"(# Scenes
+
+A scene is a TOML file. What it does not name is as the tables below say; an effect that it does not name costs nothing. This is
+a whole one:
+
+```toml
+title = "A ball in smoke"
+
+[tank]
+size_m = [0.16, 0.16, 0.16]
+cells = [48, 48, 48]
+
+[fluid]
+density_kg_m3 = 1.2             # air
+
+[smoke]
+
+[[source]]                      # [[ ]]: there may be several
+centre_m = [0.08, 0.02, 0.08]
+radius_m = 0.012
+smoke_per_s = 20.0
+velocity_m_s = [0.0, 0.3, 0.0]
+
+[[body]]
+shape = "sphere"
+radius_m = 0.013
+motion = "held"                 # by the visitor's hand
+
+[haptics]
+gain = 10000.0                  # air on a small ball is far below what a hand can feel
+```
+
+`eddy check-config FILE` says what is wrong with one, and where; `eddy run --scene FILE` shows it; `eddy simulate FILE --plan`
+tells which passes and textures it calls for. `eddy print-config jet` prints a shipped one with every value that stands in it.
+
+)";
+
 constexpr std::string_view kScenesFolder = "config/scenes/", kValidation = "validation/";
 
 // "jet" for config/scenes/jet.toml, "validation/A1" for config/scenes/validation/A1.toml.
@@ -111,7 +148,7 @@ std::string schema_reference() {
     Reference reference;
     Scene scene;
     describe(reference, scene);
-    return reference.text() + "\n## Formulas\n\n" + formula_guide() + "\n";
+    return std::string(kReferenceHead) + reference.text() + "\n## Formulas\n\n" + formula_guide() + "\n";
 }
 
 }  // namespace eddy

@@ -28,6 +28,14 @@ TEST(Reference, TellsTypeRangeDefaultAndMeaning) {
         text, HasSubstr("`fast` cut cells, multigrid with 2 cycles, semi-Lagrangian transport; `precise` "));
 }
 
+TEST(Reference, BeginsWithASceneThatCanBeRead) {
+    const std::string page = schema_reference(), begin = "```toml\n";
+    const std::size_t from = page.find(begin) + begin.size();
+    const Scene scene = read_scene(page.substr(from, page.find("```", from) - from), "example.toml").scene;
+    EXPECT_EQ(scene.bodies.size(), 1u);
+    EXPECT_EQ(scene.sources.size(), 1u);
+}
+
 TEST(Reference, RowsHaveFiveColumns) {
     std::istringstream lines(schema_reference());
     for (std::string line; std::getline(lines, line);) {
