@@ -34,8 +34,7 @@ void Button::press_goes_on(Instant held, ButtonNews& news) {
     if (held > kStuck) {
         phase_ = Phase::Stuck;
     } else if (from_start_) {
-        phase_ = Phase::Down;
-        if (held >= kFactory && !told_) news.factory = told_ = true;
+        phase_ = held >= kFactory ? Phase::Factory : Phase::Down;
     } else if (held >= kShutdown) {
         phase_ = Phase::Shutdown;
     } else if (held >= kGuide) {
@@ -47,10 +46,11 @@ void Button::press_goes_on(Instant held, ButtonNews& news) {
 }
 
 void Button::let_go(Instant held, ButtonNews& news) {
-    const bool counts = !from_start_ && held <= kStuck;
-    news.click = counts && held >= kShortestClick && held <= kLongestClick;
-    news.shutdown = counts && held >= kShutdown;
     phase_ = Phase::Up;
+    if (held > kStuck) return;
+    news.factory = from_start_ && held >= kFactory;
+    news.click = !from_start_ && held >= kShortestClick && held <= kLongestClick;
+    news.shutdown = !from_start_ && held >= kShutdown;
 }
 
 }  // namespace eddy

@@ -15,7 +15,7 @@ struct ButtonNews {
 
 /// One button for everything. Pure: what it says follows from the times and contacts it was told of. A press that somebody
 /// has thought better of does nothing: let go between two and three seconds, or, of a shutdown, before ten. Only the letting go
-/// shuts down, so that a button that is stuck does not.
+/// shuts down or calls for the factory's configuration, so that a button that is stuck does neither.
 class Button {
   public:
     static constexpr Instant kDebounce = std::chrono::milliseconds(20);
@@ -27,7 +27,7 @@ class Button {
     static constexpr Instant kStuck = std::chrono::seconds(60);
 
     /// How far a press has come, for the lamps.
-    enum class Phase { Up, Down, Guide, Shutdown, Stuck };
+    enum class Phase { Up, Down, Guide, Shutdown, Factory, Stuck };
 
     /// Whether the contact is closed at `now`, which never goes back; every 10 ms or so. Nothing: its line is away, which
     /// ends a press without any news.
@@ -45,7 +45,7 @@ class Button {
     bool down_ = false;        // without its bounces
     Instant down_since_{0};
     bool from_start_ = false;  // this press was there before we were
-    bool told_ = false;        // of this press: its guide pages, or the factory's configuration
+    bool told_ = false;        // of this press: its guide pages
     Phase phase_ = Phase::Up;
 };
 

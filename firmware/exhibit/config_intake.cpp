@@ -82,6 +82,15 @@ std::optional<ConfigIntake::Objection> ConfigIntake::objection(const ConfigSet& 
                        "here that holds a comment");
     }
     if (!set.good()) return Objection{ConfigResult::Refused, set.diagnostics};
+    const ConfigSet* before = running_     ? &*running_
+                              : open_      ? &open_->set
+                              : last_good_ ? &*last_good_
+                                           : nullptr;
+    // Without it the machine's ceiling of the force and its stop input would be gone, and nothing else be wrong.
+    if (set.files.exhibit.own.empty() && before && !before->files.exhibit.own.empty())
+        return because(ConfigResult::Refused,
+                       "exhibit.toml is not here any more, only conf.d is; put it back, or one that holds "
+                       "nothing but a comment");
     if (contains(refused_, set.hash))
         return because(ConfigResult::Refused, "these very settings could not be built before; change them");
     if (memory_.black_listed(set.hash))
@@ -100,6 +109,7 @@ ConfigOffer ConfigIntake::start() {
         if (last_good_ && !contains(refused_, last_good_->hash) && !memory_.black_listed(last_good_->hash))
             return offer(*last_good_, ConfigSource::LastGood);
     }
+    if (setup_.factory_only) report_.result = ConfigResult::NotRead;
     ConfigSet set = factory_set(setup_.orders);
     report_.stands_in = setup_.factory_only || report_.result != ConfigResult::Applied;
     if (contains(refused_, set.hash)) throw ConfigError(report_.errors);
@@ -225,7 +235,8 @@ std::optional<ConfigOffer> ConfigIntake::poll(Instant now) {
         probation_until_.reset();
         report_.probation = false;
         const bool whole = report_.pending_restart.empty();
-        keeping_ = std::async(std::launch::async, [this, whole] {
+        busy_since_ = now;
+        keeping_ = beside([this, whole] {
             if (whole) memory_.keep_as_last_good(*running_);
             memory_.end_probation();
         });
@@ -242,9 +253,15 @@ std::optional<ConfigOffer> ConfigIntake::poll(Instant now) {
     }
     if (quiet_until_ && now >= *quiet_until_ && !news.writing && !reading_.valid()) {
         quiet_until_.reset();
-        reading_ = std::async(std::launch::async, read_config_set, setup_.folder, setup_.orders);
+        busy_since_ = now;
+        reading_ = beside(
+            [folder = setup_.folder, orders = setup_.orders] { return read_config_set(folder, orders); });
     }
     return std::nullopt;
+}
+
+bool ConfigIntake::is_held_up(Instant now) const {
+    return now - busy_since_ > kHeldUp && (is_under_way(reading_) || is_under_way(keeping_));
 }
 
 void ConfigIntake::watch(const ConfigSet& set) {

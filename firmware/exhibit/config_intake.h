@@ -55,6 +55,7 @@ class ConfigIntake {
 
     static constexpr Instant kQuiet = std::chrono::milliseconds(250);
     static constexpr Instant kProbation = std::chrono::seconds(30);
+    static constexpr Instant kHeldUp = std::chrono::seconds(60);
 
     explicit ConfigIntake(Setup setup, Disk& disk = real_disk());
 
@@ -76,6 +77,8 @@ class ConfigIntake {
 
     /// Something is being read or kept.
     bool busy() const { return reading_.valid() || keeping_.valid(); }
+    /// And has been for longer than any disk takes that works: files that come meanwhile have to wait.
+    bool is_held_up(Instant now) const;
     const ConfigReport& report() const { return report_; }
 
   private:
@@ -115,6 +118,7 @@ class ConfigIntake {
     std::optional<Instant> quiet_until_;
     std::future<ConfigSet> reading_;
     std::future<void> keeping_;
+    Instant busy_since_{0};  ///< if it is
     std::optional<Instant> probation_until_;
 };
 

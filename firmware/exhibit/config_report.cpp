@@ -44,9 +44,11 @@ std::string_view to_word(ConfigResult result) {
         case ConfigResult::Refused:
             return "refused";
         case ConfigResult::BlackListed:
+            return "black-listed";
+        case ConfigResult::NotRead:
             break;
     }
-    return "black-listed";
+    return "not-read";
 }
 
 std::string to_json(const ConfigReport& r) {

@@ -18,6 +18,7 @@ enum class ConfigResult {
     Trying,       ///< it is good; its scene is being built while the old one runs on
     Refused,      ///< something is wrong with it: see errors
     BlackListed,  ///< the program died under it before
+    NotRead,      ///< nobody looks at it until the next start: safe mode, or the button was held
 };
 std::string_view to_word(ConfigResult result);
 

@@ -29,18 +29,17 @@ constexpr EventKind kKinds[] = {
     {Event::SafeMode, "safe_mode", "84379d95ec10449991c647d019a4790a", Priority::Error,
      "Safe mode: the settings of the factory, and no force; three restarts of the machine within an hour did "
      "not help, or the file `safe` in the state folder asks for it.",
-     "Read what came before. When it is mended, remove that file, or wait an hour, and restart the service, "
-     "or switch the box off and on: it does not come back by itself."},
+     "Read what came before. When it is mended, remove that file, then switch the box off and on, or an hour "
+     "later restart the service: it does not come back by itself."},
     {Event::Crashed, "crashed", "f20e9d2e06074a1c9e0ac6251c7df971", Priority::Error,
      "A record of a crash was found, with the last lines of the log and the last seconds of the hand.",
      "Keep the files it names and report them; `eddy replay` shows the seconds of the hand."},
     {Event::Hangs, "hangs", "623c1bc71d83410ea6e76b7f5a67b137", Priority::Error,
      "A part of the program does not get on; the service manager will end it and start it again. But if it "
-     "is button and "
-     "lamps: then the show goes on, without force where a stop input is wired.",
+     "is button and lamps, the show goes on, without force where a stop input is wired; and if it is files "
+     "that the disk does not read or keep, the show goes on as it is.",
      "Report it, with the crash record of the next start. If it is button and lamps: unplug their USB "
-     "bridge, plug it in again, "
-     "and click."},
+     "bridge, plug it in again, and click. If it is files: look at the disk, or the network they lie on."},
     {Event::Opened, "opened", "8dbf1c6d504c49b89a07c09a8928c45f", Priority::Info, "The opening hours begin.",
      "Nothing."},
     {Event::Closed, "closed", "e26d5bcad92f40ba843f9eab28dac2ce", Priority::Info,

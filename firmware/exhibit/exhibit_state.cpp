@@ -24,7 +24,7 @@ ExhibitState exhibit_state(const ExhibitFacts& f) {
     if (!f.open) return ExhibitState::Closed;
     if (f.device == HapticState::Fault && f.has_device) return ExhibitState::Fault;
     if (hand_is_missing(f) || force_is_off(f) || !f.has_screen || f.button_stuck || f.fell_back ||
-        f.force == GateReason::Stopped)
+        f.files_wait || f.force == GateReason::Stopped)
         return ExhibitState::Degraded;
     return f.presence == Presence::Nobody ? ExhibitState::Attract : ExhibitState::InUse;
 }

@@ -19,6 +19,7 @@ struct ExhibitFacts {
     bool button_stuck = false;  ///< or a line of the panel is away, or all of it hangs
     bool fell_back =
         false;  ///< it runs with other settings than those in its folder: older ones, or the factory's
+    bool files_wait = false;  ///< what the disk does not read or keep
 };
 
 /// How far the first picture of the show has come.

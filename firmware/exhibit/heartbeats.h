@@ -10,13 +10,13 @@
 namespace eddy {
 
 /// What of the program has to get on for the exhibit to be alive.
-enum class Part : std::uint8_t { Render, Haptic, Config, Gpio };
+enum class Part : std::uint8_t { Render, Haptic, Gpio, Config };
 
 inline constexpr Word<Part> kParts[] = {
     {Part::Render, "render", "fluid and picture"},
     {Part::Haptic, "haptic", "the 1 kHz loop"},
-    {Part::Config, "config", "who looks after the files"},
     {Part::Gpio, "gpio", "who looks after button and lamps"},
+    {Part::Config, "config", "who reads and keeps the files of the settings"},
 };
 constexpr std::span<const Word<Part>> words_of(Part) {
     return kParts;
@@ -40,7 +40,8 @@ class Heartbeats {
     /// The first part that hangs, if any.
     std::optional<Part> hanging(Instant now) const;
     /// Whether one does that a new process can be the cure for. Button and lamps are none: their bridge would hang that, too, before
-    /// its first frame, and meanwhile the force is off (StopInput) and the show goes on.
+    /// its first frame, and meanwhile the force is off (StopInput) and the show goes on. Nor are files: a new process would wait for
+    /// the same disk.
     bool needs_restart(Instant now) const;
 
   private:

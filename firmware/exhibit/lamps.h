@@ -64,7 +64,8 @@ inline constexpr std::array<LampRow, 13> kLampRows{{
      "G.G.....", "*.*.....", "G.G....."},
     {LampCode::Rejected, "rejected", "a new configuration was refused: the old one runs on",
      "A.A.A.....", "*.*.*.....", "Y.Y.Y....."},
-    {LampCode::LetGo, "let_go", "the button has been held long enough: let go, and it shuts down",
+    {LampCode::LetGo, "let_go",
+     "the button has been held long enough: let go, and it shuts down; if held since the start, begins as the factory made it",
      "*", ".", "W"},
 }};
 // clang-format on

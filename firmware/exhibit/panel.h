@@ -12,7 +12,8 @@ namespace eddy {
 
 /// What has happened on the panel since the last time somebody asked, and how it is now.
 struct PanelNews {
-    std::uint64_t resets = 0;  ///< clicks: the exhibit begins anew, and after a stop HandOrders::restart()
+    std::uint64_t resets = 0;  ///< clicks: the exhibit begins anew
+    bool force_back = false;   ///< one of them came after the last stop was let go: HandOrders::restart()
     bool guide = false;        ///< show the guide pages
     bool shutdown = false;     ///< end, and power down
     bool factory = false;      ///< held since the start: start with the factory's configuration

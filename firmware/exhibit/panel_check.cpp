@@ -104,7 +104,8 @@ class Check {
             tell_change("button", button_was, pressed, button_);
             if (news.click) fmt::print(out_, "button: a click: the exhibit begins anew\n");
             if (news.guide) fmt::print(out_, "button: 3 s: guide pages\n");
-            if (news.factory) fmt::print(out_, "button: 5 s since the start: factory configuration\n");
+            if (news.factory)
+                fmt::print(out_, "button: 5 s since the start and let go: factory configuration\n");
             if (news.shutdown) fmt::print(out_, "button: 10 s and let go: shut down\n");
             tell_change("stop", stop_was, stop_.wanted() ? stop_.read(now) : false, stop_);
         }

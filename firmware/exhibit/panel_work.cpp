@@ -41,6 +41,11 @@ void PanelWork::see_stop(Instant now) {
     }
     // As of before the look: a line that answers late tells of then.
     stop_input_.found(stopped_, now);
+    // However late the clicks from before it are heard.
+    if (stopped_) {
+        const std::lock_guard lock(mutex_);
+        news_.force_back = false;
+    }
     if (pressed) stop_seen_ = true;
 }
 
@@ -49,6 +54,7 @@ void PanelWork::see_button(Instant now) {
     if (!news.click && !news.guide && !news.shutdown && !news.factory) return;
     const std::lock_guard lock(mutex_);
     if (news.click) ++news_.resets;
+    news_.force_back |= news.click && !stopped_;
     news_.guide |= news.guide;
     news_.shutdown |= news.shutdown;
     news_.factory |= news.factory;
@@ -60,6 +66,7 @@ LampCode PanelWork::code_now() const {
         case Button::Phase::Guide:
             return LampCode::Guide;
         case Button::Phase::Shutdown:
+        case Button::Phase::Factory:
             return LampCode::LetGo;
         case Button::Phase::Stuck:
             return LampCode::Fault;
@@ -108,7 +115,7 @@ PanelNews PanelWork::news() {
     const std::lock_guard lock(mutex_);
     PanelNews news = news_;
     news_.resets = 0;
-    news_.guide = news_.shutdown = news_.factory = false;
+    news_.force_back = news_.guide = news_.shutdown = news_.factory = false;
     return news;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 namespace eddy {
@@ -55,13 +54,14 @@ bool StartLedger::gave_up(const std::string& boot, std::int64_t& at_s) const {
 StartLedger::Verdict StartLedger::begin(std::int64_t now_s, const std::string& boot) {
     Verdict verdict;
     const std::string this_boot = boot.empty() ? "unknown" : boot;
-    std::set<std::string> boots;
-    for (const Start& start : starts_)
-        if (start.boot != this_boot) boots.insert(start.boot);
     bool power_lost = !starts_.empty();
-    for (const std::string& before : boots) {
+    std::string before = this_boot;
+    for (auto start = starts_.rbegin(); start != starts_.rend(); ++start) {
+        if (start->boot == before || start->boot == this_boot) continue;
+        before = start->boot;
         std::int64_t at_s = 0;
-        if (!gave_up(before, at_s)) continue;
+        // One that did well ends the count: a clock that begins at the same hour each morning does not make old failures new.
+        if (!gave_up(before, at_s)) break;
         if (before == starts_.back().boot) power_lost = false;
         // A clock that was set back has not made a failure undone.
         if (now_s - at_s < kHour_s) ++verdict.restarts;

@@ -18,8 +18,9 @@ enum class EndBefore : std::uint8_t {
 };
 
 /// Keeps the last starts of the program in a file, and decides from them how this one is to be. eddy.service starts the
-/// machine anew after kBurst failures within kBurst_s; when that has not helped kMostRestarts times within an hour, the program goes on
-/// in safe mode: the settings of the factory, no force, and a minute between two starts, so that the machine is not started again.
+/// machine anew after kBurst failures within kBurst_s; when that has not helped kMostRestarts times in a row within an hour, the
+/// program goes on in safe mode: the settings of the factory, no force, and a minute between two starts, so that the machine is not
+/// started again. Whoever switches it off and on then tries anew.
 /// A program that ended because only a new process could help (its screen is on another card) has not failed; should that happen
 /// again and again, the starts are spread out until systemd takes no offence.
 /// A file named `safe` beside the ledger asks for the same. An hour after the last such restart of the machine, a start is as
@@ -38,8 +39,8 @@ class StartLedger {
 
     struct Verdict {
         EndBefore before = EndBefore::None;
-        int restarts = 0;         ///< of the machine within the last hour, because the program failed
-        bool safe = false;        ///< safe mode
+        int restarts = 0;   ///< of the machine within the last hour, in a row, because the program failed
+        bool safe = false;  ///< safe mode
         bool asked_for = false;   ///< by the file
         std::int64_t wait_s = 0;  ///< before anything else is tried
         bool written = true;      ///< the start could be put down

@@ -85,7 +85,7 @@ bool UsageBook::go_on(Instant now) {
     if (dirty_ && now >= due_ && !writing_.valid()) {
         due_ = now + kEvery;
         dirty_ = false;
-        writing_ = std::async(std::launch::async, [this, text = text()] { return file_.try_write(text); });
+        writing_ = beside([this, text = text()] { return file_.try_write(text); });
     }
     return good;
 }

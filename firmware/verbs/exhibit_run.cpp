@@ -308,9 +308,9 @@ void ExhibitRun::get_ready(Instant now) {
 void ExhibitRun::heed_panel(Instant now) {
     if (!panel_) return;
     const PanelNews news = panel_->news();
+    if (news.force_back) hand_->orders().restart();
     if (news.resets > 0) {
         guide_until_.reset();
-        hand_->orders().restart();
         if (front_->plays()) begin_anew("somebody pressed the button");
     }
     if (news.guide) guide_until_ = now + kGuide;
@@ -456,7 +456,8 @@ ExhibitFacts ExhibitRun::facts() const {
         .presence = presence_,
         .has_screen = front_->has_screen() || !wants_screen(),
         .button_stuck = button_stuck_ || !trouble_.empty() || hanging_ == Part::Gpio,
-        .fell_back = settings_->report().source == ConfigSource::LastGood || settings_->report().stands_in};
+        .fell_back = settings_->report().source == ConfigSource::LastGood || settings_->report().stands_in,
+        .files_wait = hanging_ == Part::Config};
 }
 
 /// A service has its screen to itself; elsewhere `auto` finds none where there is a desktop.
@@ -511,7 +512,7 @@ void ExhibitRun::alive() {
     ++beats_;
     Heartbeats& beats = office_.service().heartbeats();
     beats.see(Part::Render, beats_, now);
-    beats.see(Part::Config, beats_, now);
+    if (!settings_->is_held_up(now)) beats.see(Part::Config, beats_, now);
     // A loop whose device comes or goes may have to wait for the kernel; there is no force then.
     const LoopReport& loop = hand_->exchange().report.newest();
     if (hand_runs_ && hand_->has_device() && loop.device != HapticState::Ready)
@@ -523,18 +524,25 @@ void ExhibitRun::alive() {
 }
 
 void ExhibitRun::tell_of_hang(std::optional<Part> part) {
-    const bool was_panel = hanging_ == Part::Gpio;
-    hanging_ = part;
+    const std::optional<Part> was = std::exchange(hanging_, part);
     if (part == Part::Gpio) {
         office_.say(
             Event::Hangs,
             "button, stop input and lamps do not answer; a stop input counts as pressed until they do and "
             "somebody clicks: unplug their USB bridge and plug it in again");
         office_.count(&Usage::faults);
+    } else if (part == Part::Config) {
+        office_.say(
+            Event::Hangs,
+            "the files of the settings have been read or kept for a minute: new ones have to wait; the "
+            "disk, or the network that they lie on, may be failing");
+        office_.count(&Usage::faults);
     } else if (part) {
         office_.say(Event::Hangs, fmt::format("a part of the program does not get on: {}", to_word(*part)));
-    } else if (was_panel) {
+    } else if (was == Part::Gpio) {
         office_.say(Event::Note, "button, stop input and lamps answer again");
+    } else if (was == Part::Config) {
+        office_.say(Event::Note, "the files of the settings are read and kept again");
     }
 }
 

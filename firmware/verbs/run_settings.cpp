@@ -117,7 +117,7 @@ void RunSettings::taken(const ConfigOffer& offer) {
     const bool first = nothing_runs(), stood_in = report().stands_in;
     intake_.accepted(offer.hash, clock_.now());
     news_.apply = true;
-    good_ = report().result == ConfigResult::Applied;
+    good_ = report().result == ConfigResult::Applied || report().result == ConfigResult::NotRead;
     taken_at_s_ = static_cast<double>(std::time(nullptr));
     office_.journal().set_config_hash(offer.hash);
     if (offer.source == ConfigSource::LastGood)

@@ -29,6 +29,7 @@ class RunSettings {
 
     /// Looks into the folder.
     void heed();
+    bool is_held_up(Instant now) const { return intake_.is_held_up(now); }
     struct News {
         bool apply = false;  ///< keys that count at once may be others
         bool taken = false, refused = false;

@@ -105,15 +105,27 @@ TEST(Button, StuckForMoreThanAMinuteIsAFaultAndShutsNothingDown) {
 TEST(Button, HeldSinceTheStartForFiveSecondsAsksForTheFactorysConfiguration) {
     Finger finger(true);
     finger.hold(4999ms, true);
-    EXPECT_EQ(finger.factories, 0);
+    EXPECT_EQ(finger.button.phase(), Button::Phase::Down);
     finger.hold(1ms, true);
-    EXPECT_EQ(finger.factories, 1);
+    EXPECT_EQ(finger.button.phase(), Button::Phase::Factory);
     finger.hold(20'000ms, true);
+    EXPECT_EQ(finger.all(), 0) << "it may be stuck";
     finger.hold(100ms, false);
+    EXPECT_EQ(finger.factories, 1);
     EXPECT_EQ(finger.all(), 1) << "and for nothing else";
     finger.press(5500ms);
     EXPECT_EQ(finger.factories, 1) << "only a press that was there at the start";
     EXPECT_EQ(finger.guides, 1);
+}
+
+TEST(Button, StuckSinceTheStartIsStuckAndNothingElse) {
+    Finger finger(true);
+    finger.hold(61s, true);
+    EXPECT_EQ(finger.button.phase(), Button::Phase::Stuck);
+    finger.hold(100ms, false);
+    EXPECT_EQ(finger.all(), 0);
+    finger.press(100ms);
+    EXPECT_EQ(finger.clicks, 1);
 }
 
 TEST(Button, HeldSinceTheStartAndLetGoSoonAsksForNothing) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -449,6 +450,33 @@ TEST_F(Exhibits, KeepTheirShowWhenTheFolderIsGone) {
     EXPECT_EQ(answer()["result"], "applied");
 }
 
+TEST_F(Exhibits, KeepTheirOwnSettingsWhenOnlyThoseOfTheFleetAreLeft) {
+    write("exhibit.toml", "max_force_n = 1.5\n");
+    write("conf.d/hours.toml", "idle_after_s = 90\n");
+    start();
+    pass(31s);
+    std::filesystem::remove(scratch_.path() / "eddy/exhibit.toml");
+    EXPECT_FALSE(take());
+    EXPECT_EQ(answer()["result"], "refused");
+    EXPECT_THAT(answer()["errors"][0]["message"].get<std::string>(), HasSubstr("exhibit.toml is not here"));
+    crash();
+    const ConfigOffer offer = start();
+    EXPECT_EQ(offer.source, ConfigSource::LastGood);
+    EXPECT_EQ(offer.exhibit.max_force_n, 1.5);
+    write("exhibit.toml", "# nothing\n");
+    ASSERT_TRUE(take());
+    EXPECT_EQ(answer()["result"], "applied") << "it was meant so";
+}
+
+TEST_F(Exhibits, WithSettingsOfTheFleetAloneNeedNoneOfTheirOwn) {
+    write("conf.d/hours.toml", "max_force_n = 2\n");
+    EXPECT_EQ(start().source, ConfigSource::New);
+    pass(31s);
+    write("conf.d/hours.toml", "max_force_n = 1\n");
+    ASSERT_TRUE(take());
+    EXPECT_EQ(answer()["result"], "applied");
+}
+
 TEST_F(Exhibits, AnswerBesideTheSettingsToo) {
     std::filesystem::create_directory(scratch_.path() / "eddy/status");
     start();
@@ -569,8 +597,47 @@ TEST_F(Exhibits, ReadNothingInSafeMode) {
     write("exhibit.toml", "max_force_n = 3\n");
     safe_mode_ = true;
     EXPECT_EQ(start().source, ConfigSource::Factory);
+    EXPECT_EQ(answer()["result"], "not-read");
     write("exhibit.toml", "max_force_n = 2\n");
     EXPECT_FALSE(take());
+    EXPECT_EQ(answer()["result"], "not-read") << "who brought it has to know";
+}
+
+/// Takes a file only when the test lets it.
+class HeldDisk final : public Disk {
+  public:
+    std::atomic<bool> held = false;
+
+    void write(const std::filesystem::path& file, std::string_view bytes) override {
+        while (held) std::this_thread::sleep_for(1ms);
+        real_disk().write(file, bytes);
+    }
+    void rename(const std::filesystem::path& from, const std::filesystem::path& to) override {
+        real_disk().rename(from, to);
+    }
+    void remove(const std::filesystem::path& file) override { real_disk().remove(file); }
+    void make_folder(const std::filesystem::path& folder) override { real_disk().make_folder(folder); }
+    void flush_folder(const std::filesystem::path& folder) override { real_disk().flush_folder(folder); }
+};
+
+TEST_F(Exhibits, SayWhenADiskHoldsThemUp) {
+    write("exhibit.toml", "max_force_n = 3\n");
+    HeldDisk disk;
+    intake_.emplace(
+        ConfigIntake::Setup{.folder = scratch_.path() / "eddy", .state_dir = scratch_.path() / "state"},
+        disk);
+    intake_->accepted(intake_->start().hash, 0s);
+    disk.held = true;
+    intake_->poll(30s);
+    ASSERT_TRUE(intake_->busy()) << "it is to be the last good one";
+    EXPECT_FALSE(intake_->is_held_up(90s));
+    EXPECT_TRUE(intake_->is_held_up(91s));
+    EXPECT_FALSE(intake_->poll(91s)) << "and waits for nobody";
+    disk.held = false;
+    while (intake_->is_held_up(91s)) std::this_thread::sleep_for(1ms);
+    intake_->poll(92s);
+    EXPECT_FALSE(intake_->busy());
+    EXPECT_FALSE(intake_->is_held_up(200s)) << "there is nothing to wait for";
 }
 
 }  // namespace

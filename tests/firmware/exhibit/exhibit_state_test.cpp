@@ -51,7 +51,7 @@ TEST(ExhibitState, EachThingThatIsMissingDegrades) {
           +[](ExhibitFacts& f) { f.device = HapticState::Homing; },
           +[](ExhibitFacts& f) { f.force = GateReason::DeviceSilent; },
           +[](ExhibitFacts& f) { f.has_screen = false; }, +[](ExhibitFacts& f) { f.button_stuck = true; },
-          +[](ExhibitFacts& f) { f.fell_back = true; }}) {
+          +[](ExhibitFacts& f) { f.fell_back = true; }, +[](ExhibitFacts& f) { f.files_wait = true; }}) {
         ExhibitFacts facts = kWell;
         spoil(facts);
         EXPECT_EQ(exhibit_state(facts), ExhibitState::Degraded);

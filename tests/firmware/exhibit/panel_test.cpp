@@ -86,7 +86,12 @@ TEST(Panel, TellsOfGuideAndShutdown) {
 
 TEST(Panel, HeldSinceTheStartAsksForTheFactorysConfiguration) {
     Desk desk;
-    desk.press_button(6s);
+    desk.gpio.set_high("bridge:0", false);
+    desk.run(6s);
+    EXPECT_FALSE(desk.work.news().factory) << "it may be stuck";
+    EXPECT_EQ(desk.lit(), "GAR") << "let go";
+    desk.gpio.set_high("bridge:0", true);
+    desk.run(50ms);
     EXPECT_TRUE(desk.work.news().factory);
 }
 
@@ -123,6 +128,26 @@ TEST(Panel, AStopIsLetGoWhenItRests) {
     }
     desk.run(20ms);
     EXPECT_FALSE(desk.stopped());
+}
+
+TEST(Panel, OnlyAClickAfterAStopBringsTheForceBack) {
+    Desk desk;
+    desk.run(100ms);
+    desk.press_button(200ms);
+    EXPECT_TRUE(desk.work.news().force_back);
+    EXPECT_FALSE(desk.work.news().force_back);
+    // Not one that is heard only after the stop, nor one while it lasts.
+    desk.press_button(200ms);
+    desk.press_stop(true);
+    desk.run(100ms);
+    desk.press_button(200ms);
+    desk.press_stop(false);
+    desk.run(100ms);
+    PanelNews news = desk.work.news();
+    EXPECT_FALSE(news.force_back);
+    EXPECT_EQ(news.resets, 2U) << "the show begins anew all the same";
+    desk.press_button(200ms);
+    EXPECT_TRUE(desk.work.news().force_back);
 }
 
 TEST(Panel, WithoutAStopInputNothingIsStopped) {

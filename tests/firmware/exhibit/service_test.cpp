@@ -97,6 +97,17 @@ TEST_F(ServiceTest, ButtonAndLampsThatHangAreToldOfAndEndNothing) {
     EXPECT_LE(fed(), 2) << "but the hand that hangs as well does";
 }
 
+TEST_F(ServiceTest, FilesThatNobodyCanReadAreToldOfAndEndNothing) {
+    begin();
+    service_.heartbeats().expect(Part::Config, 0s);
+    run(0s, 40s, 40s);
+    EXPECT_GE(fed(), 15);
+    EXPECT_EQ(service_.heartbeats().hanging(40s), Part::Config);
+    service_.heartbeats().expect(Part::Gpio, 0s);
+    EXPECT_EQ(service_.heartbeats().hanging(40s), Part::Gpio) << "a stop input hangs on it";
+    EXPECT_FALSE(service_.heartbeats().needs_restart(40s));
+}
+
 TEST_F(ServiceTest, AtTwoFramesASecondItLivesOn) {
     begin();
     for (Instant t = 0s; t < 60s; t += 500ms) {

@@ -109,7 +109,17 @@ TEST_F(StartLedgerTest, FailuresBetweenStartsThatWereAskedForLeadToSafeModeAsWel
 TEST_F(StartLedgerTest, AnHourLaterAllIsAsUsual) {
     for (const char* boot : {"a", "b", "c"}) give_up(kNoon, boot);
     EXPECT_TRUE(start(kNoon + StartLedger::kHour_s - 60, "d").safe);
-    EXPECT_FALSE(start(kNoon + StartLedger::kHour_s + 60, "e").safe);
+    EXPECT_FALSE(start(kNoon + StartLedger::kHour_s + 60, "d").safe);
+}
+
+TEST_F(StartLedgerTest, AMachineWhoseClockBeginsAtTheSameHourEachTimeGetsOutOfSafeModeToo) {
+    for (const char* boot : {"a", "b", "c"}) give_up(kNoon, boot);
+    EXPECT_TRUE(start(kNoon, "d").safe);
+    EXPECT_FALSE(start(kNoon, "e").safe) << "somebody has switched it off and on";
+    give_up(kNoon, "f");
+    const StartLedger::Verdict verdict = start(kNoon, "g");
+    EXPECT_EQ(verdict.restarts, 1) << "those of long ago are over";
+    EXPECT_EQ(verdict.before, EndBefore::Failed);
 }
 
 TEST_F(StartLedgerTest, AClockThatWasSetBackUndoesNothing) {

@@ -1,6 +1,7 @@
 #include "firmware/exhibit/usage.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <atomic>
 #include <thread>
@@ -29,6 +30,23 @@ class SlowDisk final : public Disk {
     void remove(const std::filesystem::path& file) override { real_disk().remove(file); }
     void make_folder(const std::filesystem::path& folder) override { real_disk().make_folder(folder); }
     void flush_folder(const std::filesystem::path&) override {}
+};
+
+/// As long as it lives no thread can be begun: each would want 64 TiB for its stack.
+class NoThreads {
+  public:
+    NoThreads() {
+        pthread_getattr_default_np(&before_);
+        pthread_attr_t attributes = before_;
+        pthread_attr_setstacksize(&attributes, std::size_t{1} << 46);
+        pthread_setattr_default_np(&attributes);
+    }
+    ~NoThreads() { pthread_setattr_default_np(&before_); }
+    NoThreads(const NoThreads&) = delete;
+    NoThreads& operator=(const NoThreads&) = delete;
+
+  private:
+    pthread_attr_t before_;
 };
 
 /// Waits for it, for half a minute.
@@ -74,6 +92,18 @@ TEST_F(UsageTest, ADayEndsAtMidnightByTheWall) {
     const std::string text = read_all(folder_ / "usage");
     for (const char* day : {"2026-11-24 visits 1 ", "2026-11-25 visits 1 "})
         EXPECT_NE(text.find(day), text.npos) << text;
+}
+
+TEST_F(UsageTest, WithoutAThreadToWriteOnTheShowWaitsForIt) {
+    UsageBook book(folder_.path());
+    book.add(&Usage::visits, 1, noon_);
+    {
+        const NoThreads none;
+        EXPECT_THROW(std::thread([] {}).join(), std::system_error);
+        EXPECT_TRUE(book.go_on(0s));
+    }
+    EXPECT_TRUE(book.go_on(1s));
+    EXPECT_NE(read_all(folder_ / "usage").find("visits 1 "), std::string::npos);
 }
 
 TEST_F(UsageTest, IsWrittenOnceAMinuteAtMost) {
