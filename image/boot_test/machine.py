@@ -255,6 +255,8 @@ class Machine:
                 heard += stream.recv(65536)
             except TimeoutError:
                 pass
+            except ConnectionResetError:
+                time.sleep(0.1)  # QEMU ends: alive() knows how
         text = heard[:found.start()].decode(errors="replace").replace("\r\n", "\n")
         if found[1] != b"0":
             raise Failed(f"status {found[1].decode()} of: {script}\n{text}")

@@ -452,7 +452,7 @@ TEST_F(Exhibits, KeepTheirShowWhenTheFolderIsGone) {
 
 TEST_F(Exhibits, KeepTheirOwnSettingsWhenOnlyThoseOfTheFleetAreLeft) {
     write("exhibit.toml", "max_force_n = 1.5\n");
-    write("conf.d/hours.toml", "idle_after_s = 90\n");
+    write("conf.d/hours.toml", "[unattended]\nidle_after_s = 90\n");
     start();
     pass(31s);
     std::filesystem::remove(scratch_.path() / "eddy/exhibit.toml");
