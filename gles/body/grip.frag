@@ -41,7 +41,9 @@ void main() {
         vec3 v_high = mix(at_clamped(shares, FACES, c + e).xyz, v, last_before_wall(c, axis));
         stretch += 0.5 * (v + v_low) * vec3(greaterThan(v_low, vec3(0.0))) * (middle(low) - delta);
         stretch += 0.5 * (v + v_high) * vec3(greaterThan(v_high, vec3(0.0))) * (middle(high) - delta);
-        curvature += low + high - 2.0 * d;
+        // In the same order: away from all surfaces what is left is 0 to the last digit.
+        curvature += low - d;
+        curvature += high - d;
         normal[axis] = 0.5 * (high - low);
     }
     for (int k = 0; k < 3; ++k) {
