@@ -17,7 +17,6 @@ Case crooked(const char* name, const char* title, glm::dquat orientation) {
             .name = name,
             .title = title,
             .provokes = "a distance that is none: normals that are not, areas that are wrong",
-            .wants = "loads stay finite",
             .drive = Drive::Steps,
             .change =
                 [](Scene& s) {
@@ -71,7 +70,6 @@ Case wrong_distance(const char* name, const char* title, double area,
             .name = name,
             .title = title,
             .provokes = "shares of cells that are none, a stress on the wrong area",
-            .wants = "loads stay finite",
             .drive = Drive::Steps,
             // Turned, so that no surface goes with the cells.
             .change =
@@ -118,7 +116,6 @@ std::vector<Case> distance_cases() {
                      .name = "needle",
                      .title = "an ellipsoid twenty times as long as thick",
                      .provokes = "a distance that is off by the order of itself",
-                     .wants = "loads stay finite",
                      .change = [](Scene& s) {
                          const double side = shortest_side_m(s);
                          ball(s).shape = BodyShape::Ellipsoid;
