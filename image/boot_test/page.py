@@ -1,11 +1,14 @@
-"""docs/reliability.md, from what image/boot-test left in its results.json."""
+"""docs/reliability.md, from what image/boot-test left in its results.json. A part that was not run anew stays as it was: the parts
+take hours, and are run on different days. What was found of them is kept in docs/reliability/results.json."""
+import json
 
 HEAD = """# What was done to the box, and how it took it
 
 `image/boot-test` starts the disk image, as it is shipped, on an emulated PC (QEMU, no hardware virtualisation), with an emulated Falcon and
 an emulated USB-GPIO bridge plugged in from outside, and does to it what happens to an exhibit. It judges the screen from outside, the
 force by what arrives at the Falcon, the lamps by the lines of the bridge. This page is written by the program
-(`image/boot-test --page`); it says what the last run found, also where that is bad.
+(`image/boot-test --page`); it says what the last run of each
+part found, also where that is bad.
 
 Times are the emulated machine's. An emulated processor is far slower than a real one, most of all at what a fluid needs, so
 the fluid is tiny (8³ cells) and the picture small. A power cut here is one of the machine, not of its disk: what the disk had taken is kept.
@@ -16,6 +19,18 @@ whatever else the computer underneath does; in the others it is the clock on the
 PARTS = {"fast": "## Each time (`image/boot-test`)",
          "updates": "## Updates (`image/boot-test --updates`)",
          "cuts": "## Power cuts (`image/boot-test --cuts N`)"}
+
+
+def write_page(docs, results):
+    """Returns the files that were written."""
+    kept = docs / "reliability" / "results.json"
+    everything = json.loads(kept.read_text()) if kept.exists() else {}
+    new = json.loads(results.read_text()) if results.exists() else {}
+    everything.update({part: found for part, found in new.items() if part in PARTS})
+    kept.parent.mkdir(exist_ok=True)
+    kept.write_text(json.dumps(everything, indent=1) + "\n")
+    (docs / "reliability.md").write_text(page(everything))
+    return docs / "reliability.md", kept
 
 
 def page(everything):
