@@ -74,7 +74,10 @@ def version(m):
 
 def power_cuts(bench, count, longest_s, chance):
     """At random moments from power on to half a minute into the show, while settings are written as soon as there is a place for them.
-    A step are ten cuts and a start: what was found of them stays, whatever happens to the rest."""
+    A step are ten cuts and a start: what was found of them stays, whatever happens to the rest.
+
+    QEMU 7.2 with two processors now and then runs the breakpoint with which the kernel patches itself, some seconds after its start:
+    the kernel panics, and starts again, as it would for any other cause."""
     for first in range(1, count + 1, 10):
         last = min(first + 9, count)
         with bench.step(f"power cuts {first} to {last} at random moments: each time the data is sound; then the show is back") as s:
@@ -88,13 +91,15 @@ def power_cuts(bench, count, longest_s, chance):
                 except Failed as failed:
                     bad.append(str(failed))
                 print(f"     {cut} of {count}; damaged or wrong {len(bad)}", file=sys.stderr, flush=True)
-            s.figure("of them in the show", shows)
-            s.figure("damaged", len(bad))
-            if panics:
-                s.figure("kernels that panicked and started again", panics)
             with bench.machine() as m:
+                m.may_restart = True
                 e = Exhibit(m, bench.expected)
                 e.wait_for_show(PATIENCE)
+                panics += "Kernel panic" in m.said()
+                s.figure("of them in the show", shows)
+                s.figure("damaged", len(bad))
+                if panics:
+                    s.figure("kernels that panicked and started again", panics)
                 s.figure("the show was back after [s]", round(m.age_s()))
                 if (source := e.answer()["source"]) != "new":
                     bad.append(f"after cut {last} the settings are {source}")
@@ -105,8 +110,6 @@ def power_cuts(bench, count, longest_s, chance):
 def cut_at(bench, moment):
     """A machine is switched on, and its power cut at that second. Returns what it said."""
     with bench.machine() as m:
-        # QEMU 7.2 with two processors now and then runs the breakpoint with which the kernel patches itself, some seconds
-        # after its start: the kernel panics, and starts again, as it would for any other cause.
         m.may_restart = True
         try:
             m.ask(f"(until [ -d {CONFIG}/conf.d ]; do sleep 1; done; {WRITER}) >/dev/null 2>&1 &", max(1.0, moment - m.age_s()))
