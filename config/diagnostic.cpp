@@ -28,6 +28,13 @@ std::vector<Diagnostic> sorted(std::vector<Diagnostic> diagnostics) {
     std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& a, const Diagnostic& b) {
         return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);
     });
+    if (diagnostics.size() > kMostDiagnostics) {
+        const std::size_t more = diagnostics.size() - kMostDiagnostics;
+        diagnostics.resize(kMostDiagnostics);
+        Diagnostic& last = diagnostics.emplace_back(diagnostics.back());
+        last.key.clear();
+        last.message = fmt::format("and {} more that are wrong", more);
+    }
     return diagnostics;
 }
 

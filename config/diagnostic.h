@@ -41,8 +41,10 @@ Diagnostic diagnose(const Place& place, std::string key, std::string message);
 /// "file:line:column: key: message", on one line whatever the parts hold.
 std::string to_string(const Diagnostic& diagnostic);
 
+inline constexpr std::size_t kMostDiagnostics = 100;
+
 /// Thrown by every loader, with all that is wrong and not only the first. what() has one line for each
-/// diagnostic, in the order of file, line and column.
+/// diagnostic, in the order of file, line and column; of more than a hundred, the first hundred and how many more there are.
 class ConfigError : public std::runtime_error {
   public:
     explicit ConfigError(std::vector<Diagnostic> diagnostics);

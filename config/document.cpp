@@ -39,19 +39,68 @@ Place place_at(const toml::source_position& position, const std::string& file) {
     return {file, static_cast<int>(position.line), static_cast<int>(position.column)};
 }
 
-Node convert(const toml::node& from, const std::string& file) {
+[[noreturn]] void refuse(const Place& place, std::string why) {
+    throw ConfigError({diagnose(place, "", std::move(why))});
+}
+
+/// Where the string ends that begins there: behind its last quote, or where its line or the text does.
+std::size_t end_of_string(std::string_view text, std::size_t begin) {
+    const char quote = text[begin];
+    const std::string triple(3, quote);
+    const bool long_one = text.substr(begin, 3) == triple;
+    for (std::size_t i = begin + (long_one ? 3 : 1); i < text.size(); ++i) {
+        if (quote == '"' && text[i] == '\\')
+            ++i;
+        else if (long_one && text.substr(i, 3) == triple)
+            return i + 3;
+        else if (!long_one && (text[i] == quote || text[i] == '\n'))
+            return i + 1;
+    }
+    return text.size();
+}
+
+/// toml++ bounds how deep lists lie in lists, but not how many names a key has: each is a table in a table, and whoever
+/// goes through them, or only lets go of them, goes as deep. Enough of them in one line run out of stack.
+void check_depth(std::string_view text, const std::string& file) {
+    int dots = 0, line = 1;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"' || c == '\'') {
+            const std::size_t end = end_of_string(text, i);
+            line += static_cast<int>(std::count(text.begin() + i, text.begin() + end, '\n'));
+            i = end - 1;
+        } else if (c == '#') {
+            i = std::min(text.find('\n', i), text.size()) - 1;
+        } else if (c == '.') {
+            if (++dots >= kMostNames)
+                refuse({file, line, 1},
+                       fmt::format("a key has more than {} names with dots between", kMostNames));
+        } else if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) {
+            dots = 0;
+            line += c == '\n';
+        }
+    }
+}
+
+/// `room`: so many more values may come.
+Node convert(const toml::node& from, const std::string& file, std::size_t& room) {
     Node node;
     node.place = place_at(from.source().begin, file);
-    if (const toml::table* table = from.as_table()) {
+    const auto* entries = from.as_table();
+    const auto* elements = from.as_array();
+    if (const std::size_t n = entries ? entries->size() : elements ? elements->size() : 0; n > kMostEntries)
+        refuse(node.place, fmt::format("{} entries; at most {} can be", n, kMostEntries));
+    if (room-- == 0) refuse(node.place, fmt::format("more than {} values in one file", kMostValues));
+    if (entries) {
         node.kind = Node::Kind::Table;
-        for (const auto& [key, value] : *table) {
-            Node& child = node.children.emplace_back(convert(value, file));
+        for (const auto& [key, value] : *entries) {
+            Node& child = node.children.emplace_back(convert(value, file, room));
             child.key = key.str();
             child.key_place = place_at(key.source().begin, file);
         }
-    } else if (const toml::array* array = from.as_array()) {
+    } else if (elements) {
         node.kind = Node::Kind::List;
-        for (const toml::node& value : *array) node.children.push_back(convert(value, file));
+        for (const toml::node& value : *elements) node.children.push_back(convert(value, file, room));
     } else if (const auto* text = from.as_string()) {
         node.kind = Node::Kind::Text;
         node.text = text->get();
@@ -85,8 +134,10 @@ Node* Node::find(std::string_view name) {
 }
 
 Node parse_toml(std::string_view text, const std::string& file) {
+    check_depth(text, file);
     try {
-        Node root = convert(toml::parse(text), file);
+        std::size_t room = kMostValues;
+        Node root = convert(toml::parse(text), file, room);
         root.place = {file, 1, 1};
         return root;
     } catch (const toml::parse_error& error) {

@@ -27,7 +27,13 @@ struct Node {
     Node* find(std::string_view name);
 };
 
-/// Reads TOML text. `file` is what diagnostics call it. Throws ConfigError on a syntax error.
+/// What a file may hold, so that one which nobody wrote by hand is refused at once: checks compare bodies with bodies, keys
+/// with keys. A scene has some dozens of values.
+inline constexpr std::size_t kMostEntries = 1000;  ///< of a list or a table
+inline constexpr std::size_t kMostValues = 20000;
+inline constexpr int kMostNames = 16;  ///< of a key: body.0.material.name has four
+
+/// Reads TOML text. `file` is what diagnostics call it. Throws ConfigError on a syntax error, or if it holds more than that.
 Node parse_toml(std::string_view text, const std::string& file);
 
 /// Adds the entries of `over` to `base`: tables are merged, everything else is replaced. Places travel along.

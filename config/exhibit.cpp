@@ -175,6 +175,12 @@ void check(const Exhibit& exhibit, Findings& findings) {
     if (exhibit.preset_s > 0.0 && exhibit.presets.size() < 2)
         findings.blame(place_of(findings.origins, "preset_s"), "preset_s",
                        "there are no presets that could change; presets must name two or more");
+    for (auto preset = exhibit.presets.begin(); preset != exhibit.presets.end(); ++preset)
+        if (std::find(exhibit.presets.begin(), preset, *preset) != preset) {
+            findings.blame(place_of(findings.origins, "presets"), "presets",
+                           in_quotes(std::string(to_word(*preset))) + " is there twice");
+            break;
+        }
     const auto require_absolute = [&findings](const char* key, const std::filesystem::path& path) {
         if (!path.is_absolute())
             findings.blame(place_of(findings.origins, key), key,

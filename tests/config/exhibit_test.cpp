@@ -200,6 +200,12 @@ TEST_F(ExhibitFolder, FalconIsSetInATableOfItsOwn) {
                             HasSubstr("falcon.motor_units_per_nm: 10 is out of range")));
 }
 
+TEST_F(ExhibitFolder, PresetsAreNamedOnceEach) {
+    const std::string file = write("exhibit.toml", "presets = [\"fast\", \"precise\", \"fast\"]\n");
+    EXPECT_THAT(complaints([&] { load_exhibit_file(file); }),
+                ElementsAre(HasSubstr(":1:11: presets: \"fast\" is there twice")));
+}
+
 TEST_F(ExhibitFolder, PresetsThatChangeByThemselvesMustBeNamed) {
     for (const std::string presets : {"", "presets = [\"fast\"]\n"}) {
         const std::string file = write("exhibit.toml", "preset_s = 30\n" + presets);

@@ -66,6 +66,48 @@ TEST(SceneError, VectorsHaveThreeComponents) {
                 ElementsAre("s.toml:2:18: tank.cells.2: expected a whole number, found the text \"64\""));
 }
 
+std::string repeated(const std::string& text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) all += text;
+    return all;
+}
+
+// What no hand writes is refused before anything goes through it: a key of thirty thousand names took all of the stack.
+TEST(SceneError, KeyOfManyNamesIsRefused) {
+    const std::string deep = repeated("a.", 30'000) + "a = 1\n";
+    EXPECT_THAT(complaints_about("title = \"x\"\n" + deep),
+                ElementsAre("s.toml:2:1: a key has more than 16 names with dots between"));
+    EXPECT_THAT(complaints_about("[" + repeated("'#'.", 30'000) + "a]\n"),
+                ElementsAre("s.toml:1:1: a key has more than 16 names with dots between"));
+    EXPECT_THAT(complaints_about("tank = {" + repeated("\"a = b\" . ", 30'000) + "a = 1}\n"),
+                ElementsAre("s.toml:1:1: a key has more than 16 names with dots between"));
+}
+
+TEST(SceneError, DotsInTextsNumbersAndRemarksAreNoNames) {
+    const std::string dots(100, '.');
+    EXPECT_THAT(complaints_about("# " + dots + "\ntitle = \"\\\"" + dots + "\"\n"), IsEmpty());
+    EXPECT_THAT(complaints_about("title = '" + dots + "'\n"), IsEmpty());
+    EXPECT_THAT(complaints_about("title = \"\"\"\n\"" + dots + "\"\"\"\n"), IsEmpty());
+    EXPECT_THAT(complaints_about("x = [" + repeated("0.5, ", 100) + "0.5]\n"),
+                ElementsAre(HasSubstr("x: unknown key")));
+}
+
+TEST(SceneError, ListOfThousandsIsRefused) {
+    EXPECT_THAT(complaints_about(repeated("[[body]]\nradius_m = 0.01\n", 10'000)),
+                ElementsAre(EndsWith("10000 entries; at most 1000 can be")));
+    EXPECT_THAT(complaints_about(repeated("[[body]]\nx = [" + repeated("1,", 99) + "1]\n", 300)),
+                ElementsAre(EndsWith("more than 20000 values in one file")));
+}
+
+TEST(SceneError, OfThousandsOfMistakesAHundredAreTold) {
+    std::string text;
+    for (int i = 0; i < 900; ++i) text += "x" + std::to_string(i) + " = 1\n";
+    const auto all = complaints_about(text);
+    ASSERT_EQ(all.size(), 101u);
+    EXPECT_THAT(all.front(), StartsWith("s.toml:1:1: x0: unknown key"));
+    EXPECT_THAT(all.back(), EndsWith("and 800 more that are wrong"));
+}
+
 TEST(SceneError, SingleBracketsAroundAListAreCaught) {
     EXPECT_THAT(
         complaints_about("[body]\nradius_m = 0.01"),

@@ -125,8 +125,12 @@ TEST_F(ExhibitEndToEnd, NoBadFileChangesTheShow) {
     Program exhibit(command());
     ASSERT_TRUE(plays());
     const std::string running = answer().at("running_hash");
-    for (const char* bad : {"scene = \"nowhere\"\n", "scene = \"stir\nmax_force_n = 9\n", "", "\x01\x02\n",
-                            "presets = [\"fast\"]\n"}) {
+    std::string deep;
+    for (int i = 0; i < 30'000; ++i) deep += "a.";
+    for (const std::string& bad :
+         {std::string("scene = \"nowhere\"\n"), std::string("scene = \"stir\nmax_force_n = 9\n"),
+          std::string(), std::string("\x01\x02\n"), std::string("presets = [\"fast\"]\n"),
+          deep + "a = 1\n"}) {
         const std::uint64_t refused = answer().at("refused");
         drop(bad);
         EXPECT_TRUE(in_time([&] { return answer().at("refused").get<std::uint64_t>() > refused; })) << bad;
