@@ -122,7 +122,7 @@ class OpenCard final : public kms::Card {
     int set_connector_property(std::uint32_t connector, std::uint32_t property,
                                std::uint64_t value) override {
         if (!is_master()) return EACCES;
-        if (property != kDpms) return EINVAL;
+        if (property != kDpms || c_->cannot_sleep) return EINVAL;
         c_->plug_is_on.resize(c_->plugs.size(), true);
         c_->plug_is_on.at(connector - GraphicsCard::kFirstConnector) = value == DRM_MODE_DPMS_ON;
         return 0;
@@ -274,6 +274,8 @@ int OpenCard::commit(std::span<const kms::Setting> settings, std::uint32_t flags
         const CrtcState& state = asked.at(id);
         if (state.active && (!state.mode || state.plugs.empty())) return EINVAL;
         if (state.mode && is_refused(*state.mode)) return EINVAL;
+        if (c_->cannot_sleep && state.mode && !state.active) return EINVAL;
+        if (c_->cannot_end && !state.mode) return EINVAL;
         if (!state.active && (flags & DRM_MODE_PAGE_FLIP_EVENT) != 0) return EINVAL;
         if (state.mode && state.framebuffer != 0) {
             const kms::Buffer& b = c_->framebuffers.at(state.framebuffer);
@@ -304,6 +306,7 @@ int OpenCard::set_crtc(std::uint32_t crtc, std::uint32_t framebuffer, std::uint3
     CrtcState& state = c_->crtcs.at(crtc);
     if (on_its_way(state)) ++c_->commits_too_early;
     if (!mode) {
+        if (c_->cannot_end) return EINVAL;
         state = {};
         mode_was_set();
         return 0;

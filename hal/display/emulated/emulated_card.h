@@ -43,6 +43,8 @@ class GraphicsCard {
     bool refuses_atomic = false;     ///< every atomic commit, though it has them
     bool refuses_modifiers = false;  ///< framebuffers that name one
     std::set<std::string> refuses;   ///< modes, as "1920x1080@60"
+    bool cannot_sleep = false;       ///< a screen with a mode stays lit
+    bool cannot_end = false;         ///< nor can its mode be taken away
     bool loses_flips = false;        ///< they happen, but nobody is told
     bool hangs = false;              ///< they never happen, and nothing else does while they are waited for
     bool loses_flips_at_reset = false;  ///< only until a mode is set again

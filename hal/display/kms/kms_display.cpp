@@ -18,6 +18,7 @@ constexpr Instant kPlugsSettle = 500ms;  // a plug going in makes several change
 constexpr Instant kPlugsPoll = 10s;      // changes that nobody told of
 constexpr Instant kWakeRetry = 30s;
 constexpr Instant kWakeReport = 10min;
+constexpr Instant kSleepRetry = 10s;
 /// More than a frame of the slowest screens.
 constexpr auto kLastFlip = 50ms;
 
@@ -513,6 +514,7 @@ std::string KmsDisplay::no_monitor_problem(const std::vector<Monitor>& monitors)
 void KmsDisplay::set_awake(bool awake) {
     if (awake == awake_) return;
     awake_ = awake;
+    sleep_again_.reset();
     if (!awake) {
         waking_.reset();
         return;
@@ -524,15 +526,23 @@ void KmsDisplay::set_awake(bool awake) {
 }
 
 void KmsDisplay::fall_asleep() {
-    if (awake_ || dark_ || flying_ || !master_) return;
+    if (awake_ || flying_ || !master_) return;
+    if (dark_ && (!sleep_again_ || now_ < *sleep_again_)) return;
     dark_ = true;
+    const bool again = std::exchange(sleep_again_, std::nullopt).has_value();
     drop(waiting_);
     watch_.begin_again();
     mode_is_set_ = false;
     if (!output_) return;
-    if (const int error = output_->sleep()) {
+    // Drivers without DPMS can do no more than end the mode; in the morning it is set as at a start.
+    int error = output_->sleep();
+    if (error) error = output_->off();
+    if (error) {
         ++counters_.refused;
+        sleep_again_ = now_ + kSleepRetry;
         problem_ = fmt::format("{} cannot be switched off: {}", monitor_->plug, reason(error));
+    } else if (again) {
+        problem_.clear();
     }
 }
 

@@ -134,6 +134,7 @@ class KmsDisplay final : public Display {
 
     Instant now_{0};
     bool awake_ = true, dark_ = false, master_ = true, lost_ = false, moved_ = false;
+    std::optional<Instant> sleep_again_;  ///< it could not be switched off: then that is tried again
     bool look_due_ = false, look_probes_ = false;
     Instant master_try_{0}, plugs_poll_{0};
     std::optional<Instant> plugs_settled_;  ///< plugs changed; look into it then

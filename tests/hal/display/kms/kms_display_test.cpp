@@ -541,6 +541,46 @@ TEST_F(KmsDisplayTest, ClosedMeansDarkAndOpenMeansLight) {
     }
 }
 
+TEST_F(KmsDisplayTest, ADriverThatKnowsNoSleepEndsTheModeForTheNight) {
+    for (const bool atomic : {true, false}) {
+        card().has_atomic = atomic;
+        card().cannot_sleep = true;
+        open();
+        run(1s);
+        display->set_awake(false);
+        run(1s);
+        EXPECT_EQ(state, DisplayState::Asleep);
+        EXPECT_EQ(card().seen_on(0), 0U);
+        EXPECT_EQ(display->problem(), "");
+        display->set_awake(true);
+        EXPECT_LE(until(DisplayState::Showing, 5s), 100ms);
+        EXPECT_NE(card().seen_on(0), 0U);
+        EXPECT_GT(rate(), 50);
+        display.reset();
+    }
+}
+
+TEST_F(KmsDisplayTest, AScreenThatCannotBeSwitchedOffIsToldOfAndTriedAgain) {
+    for (const bool atomic : {true, false}) {
+        card().has_atomic = atomic;
+        card().cannot_sleep = card().cannot_end = true;
+        open();
+        run(1s);
+        display->set_awake(false);
+        run(1min, 1s);
+        EXPECT_NE(card().seen_on(0), 0U);
+        EXPECT_THAT(display->problem(), HasSubstr("cannot be switched off"));
+        card().cannot_sleep = card().cannot_end = false;
+        run(1min, 1s);
+        EXPECT_EQ(card().seen_on(0), 0U);
+        EXPECT_EQ(display->problem(), "");
+        display->set_awake(true);
+        EXPECT_LE(until(DisplayState::Showing, 5s), 100ms);
+        EXPECT_GT(rate(), 50);
+        display.reset();
+    }
+}
+
 TEST_F(KmsDisplayTest, ATelevisionThatLetsGoOfItsPlugAtNightIsNotAsked) {
     open();
     run(1s);
