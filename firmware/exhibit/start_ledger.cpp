@@ -14,8 +14,8 @@ constexpr std::size_t kMostStarts = 64;
 
 }  // namespace
 
-StartLedger::StartLedger(const std::filesystem::path& folder)
-    : file_(folder / "starts"), marker_(folder / "safe"), starts_(read()) {}
+StartLedger::StartLedger(const std::filesystem::path& folder, Disk& disk)
+    : file_(folder / "starts", disk), marker_(folder / "safe"), starts_(read()) {}
 
 /// A line that is no start is left out.
 std::vector<StartLedger::Start> StartLedger::read() {

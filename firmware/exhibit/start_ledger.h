@@ -47,7 +47,7 @@ class StartLedger {
     };
 
     /// `folder`: that of the state.
-    explicit StartLedger(const std::filesystem::path& folder);
+    explicit StartLedger(const std::filesystem::path& folder, Disk& disk = real_disk());
 
     /// This start: `now_s` by the machine's clock (seconds UTC, which may have been set meanwhile), and what names this
     /// boot of the machine.

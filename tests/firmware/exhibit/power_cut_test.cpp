@@ -4,6 +4,8 @@
 
 #include "config/sha256.h"
 #include "firmware/exhibit/config_intake.h"
+#include "firmware/exhibit/start_ledger.h"
+#include "firmware/exhibit/usage.h"
 #include "tests/firmware/exhibit/power_cut_disk.h"
 #include "tests/scratch_folder.h"
 
@@ -202,6 +204,37 @@ TEST(PowerCut, LeavesTheOldOrTheNewConfigurationWheneverItComes) {
     RecordProperty("cuts", tally.cuts);
     std::printf("%d cuts: %d new, %d last good, %d factory\n", tally.cuts, tally.new_ones, tally.last_good,
                 tally.factory);
+}
+
+TEST(PowerCut, LeavesStartsAndCountsWholeAndLosesNoStartThatWasPutDown) {
+    const ScratchFolder day;
+    PowerCutDisk disk(day.path());
+    std::vector<std::size_t> put_down;  // after so many operations was each start
+    for (int start = 0; start < 30; ++start) {
+        UsageBook usage(day.path() / "state", disk);
+        StartLedger ledger(day.path() / "state", disk);
+        EXPECT_TRUE(ledger.begin(1000 * start, std::to_string(start)).written);
+        put_down.push_back(disk.operations());
+        usage.add(&Usage::starts, 1.0, 1000 * start);
+        if (start % 2 == 0) ledger.end_well();
+    }
+    int cuts = 0;
+    std::mt19937_64 random(20261124);
+    for (std::size_t cut = 0; cut <= disk.operations(); ++cut)
+        for (int i = 0; i < 4; ++i, ++cuts) {
+            SCOPED_TRACE(testing::Message() << "cut after operation " << cut << ", chance " << i);
+            const ScratchFolder left;
+            lay_out(disk.after_cut(cut, random), left);
+            StateFile starts(left.path() / "state/starts");
+            const std::string text = starts.read().value_or("");
+            EXPECT_EQ(starts.unreadable(), 0);
+            const auto lines = std::count(text.begin(), text.end(), '\n');
+            const auto known = std::upper_bound(put_down.begin(), put_down.end(), cut) - put_down.begin();
+            EXPECT_TRUE(lines == known || lines == known + 1) << lines << " of " << known;
+            EXPECT_FALSE(UsageBook(left.path() / "state").damaged());
+        }
+    EXPECT_GE(cuts, 1000);
+    std::printf("%d cuts\n", cuts);
 }
 
 TEST(PowerCut, LeavesNothingUnreadableWithoutSumsEither) {
