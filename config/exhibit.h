@@ -18,7 +18,8 @@ enum class ForceChoice { Model, Filter };
 
 inline constexpr Word<DisplayChoice> kDisplayChoices[] = {
     {DisplayChoice::Auto, "auto", "the screen if there is one"},
-    {DisplayChoice::Kms, "kms", "the screen, straight from the kernel"},
+    {DisplayChoice::Kms, "kms",
+     "the screen, straight from the kernel; none is an error, but a service waits for its graphics card"},
     {DisplayChoice::Headless, "headless", "no screen"},
 };
 inline constexpr Word<HapticsChoice> kHapticsChoices[] = {

@@ -27,6 +27,7 @@ std::optional<GateReason> HandOrders::cause_gone(Instant now, const LoopReport& 
 void HandOrders::publish() {
     HapticOrders orders = orders_;
     orders.enabled = orders.enabled && allowed_;
+    orders.stop = orders.stop || stopped_;
     orders.most_n = std::min(orders.most_n, ceiling_n_);
     exchange_.orders.publish(orders);
 }
@@ -47,7 +48,13 @@ void HandOrders::release_latch() {
     publish();
 }
 
+void HandOrders::stay_stopped() {
+    stopped_ = true;
+    publish();
+}
+
 void HandOrders::restart() {
+    stopped_ = false;
     ++orders_.restarts;
     publish();
 }

@@ -22,6 +22,8 @@ class HandOrders {
     /// With each report: the cause of a latch, if it has been gone for so long that the latch may be released.
     std::optional<GateReason> cause_gone(Instant now, const LoopReport& report);
     void release_latch();
+    /// As after a stop that nobody has ended: no force until restart().
+    void stay_stopped();
     /// After a stop: there is a force again, if the stop input is not pressed.
     void restart();
 
@@ -30,7 +32,7 @@ class HandOrders {
 
     HapticExchange& exchange_;
     HapticOrders orders_;  ///< as they were given
-    bool allowed_ = true;
+    bool allowed_ = true, stopped_ = false;
     double ceiling_n_ = kDeviceMaxForceN;
     Instant latched_since_{0};
 };

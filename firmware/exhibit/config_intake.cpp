@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "config/override.h"
@@ -19,6 +20,33 @@ using namespace std::chrono_literals;
 
 std::string this_program() {
     return fmt::format("{} ({})", EDDY_VERSION, kBuiltFrom);
+}
+
+/// Of text that is no TOML: whether a line of it gives `stop` a name.
+bool names_a_stop(const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        line.resize(std::min(line.find('#'), line.size()));
+        std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
+        for (const std::string_view given : {"stop=\"", "stop='"})
+            if (const std::size_t at = line.find(given); at != std::string::npos) {
+                const std::size_t name = at + given.size();
+                if (name < line.size() && line[name] != given.back()) return true;
+            }
+    }
+    return false;
+}
+
+/// Whether the stop input of `now` may be another than that of `then`.
+bool may_stop_elsewhere(const ConfigSet& now, const ConfigSet& then) {
+    const GpioConfig &a = now.exhibit.exhibit.gpio, &b = then.exhibit.exhibit.gpio;
+    if (now.good() || !a.stop.empty())
+        return a.stop != b.stop || (!a.stop.empty() && a.stop_active_low != b.stop_active_low);
+    if (!b.stop.empty()) return false;  // it is looked at: what cannot be read takes nothing away
+    for (const auto* files : {&now.files.exhibit.own, &now.files.exhibit.drop_ins})
+        for (const WrittenFile& file : *files)
+            if (names_a_stop(file.text)) return true;
+    return false;
 }
 
 bool contains(const std::vector<std::string>& all, const std::string& one) {
@@ -60,9 +88,10 @@ std::optional<ConfigSet> ConfigIntake::good_one_in_folder() {
     const bool seen = report_.hash == set.hash;
     report_.hash = set.hash;
     if (!seen) {
-        if (auto why = objection(set))
+        if (auto why = objection(set)) {
+            report_.stop_unread = last_good_ && may_stop_elsewhere(set, *last_good_);
             refuse(why->result, std::move(why->errors));
-        else if (!set.files.exhibit.none())
+        } else if (!set.files.exhibit.none())
             return set;
     }
     return std::nullopt;
@@ -174,6 +203,7 @@ void ConfigIntake::accepted(const std::string& hash, Instant now) {
     if (source == ConfigSource::New && hash == report_.hash) report_.result = ConfigResult::Applied;
     report_.source = source;
     report_.stands_in &= source == ConfigSource::Factory || !report_.pending_restart.empty();
+    report_.stop_unread &= source == ConfigSource::LastGood || !report_.pending_restart.empty();
     report_.running_hash = hash;
     report_.applied_at = utc_stamp();
     report_.probation = !proven;

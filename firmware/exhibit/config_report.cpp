@@ -57,6 +57,7 @@ std::string to_json(const ConfigReport& r) {
            {"result", to_word(r.result)},
            {"source", to_word(r.source)},
            {"stands_in", r.stands_in},
+           {"stop_unread", r.stop_unread},
            {"applied_at", r.applied_at.empty() ? Json() : Json(r.applied_at)},
            {"probation", r.probation},
            {"errors", Json::array()},

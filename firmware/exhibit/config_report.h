@@ -31,6 +31,8 @@ struct ConfigReport {
     std::string applied_at;  ///< UTC, ISO 8601: since when it runs; empty: not yet
     /// Settings of the factory are in force, all or some, in place of the owner's: nobody knows whether a stop input is wired.
     bool stands_in = false;
+    /// The last good ones are in force, and those that cannot be used name another stop input: nobody looks at it.
+    bool stop_unread = false;
     bool probation = false;  ///< for 30 s the last good one is kept ready
     std::vector<Diagnostic> errors{};
     std::vector<KeyChange> pending_restart{};
@@ -39,7 +41,7 @@ struct ConfigReport {
     std::string trouble{};  ///< the system's words for the last write that failed
 };
 
-/// {hash, running_hash, result, source, stands_in, applied_at, probation, errors[{file, line, column, key, message, hint}],
+/// {hash, running_hash, result, source, stands_in, stop_unread, applied_at, probation, errors[{file, line, column, key, message, hint}],
 /// pending_restart[{key, takes_effect, from, to}], applied, refused, unreadable_state, failed_writes, trouble}
 std::string to_json(const ConfigReport& report);
 

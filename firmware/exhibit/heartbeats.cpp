@@ -6,9 +6,15 @@ void Heartbeats::expect(Part part, Instant now) {
     beats_[static_cast<std::size_t>(part)] = Beat{.count = 0, .at = now};
 }
 
+void Heartbeats::give(Part part, Instant patience) {
+    if (std::optional<Beat>& beat = beats_[static_cast<std::size_t>(part)]) beat->patience = patience;
+}
+
 void Heartbeats::see(Part part, std::uint64_t count, Instant now) {
     std::optional<Beat>& beat = beats_[static_cast<std::size_t>(part)];
-    if (beat && beat->count != count) *beat = Beat{.count = count, .at = now};
+    if (!beat || beat->count == count) return;
+    beat->count = count;
+    beat->at = now;
 }
 
 void Heartbeats::excuse(Instant now) {
@@ -18,7 +24,7 @@ void Heartbeats::excuse(Instant now) {
 
 std::optional<Part> Heartbeats::hanging(Instant now) const {
     for (std::size_t i = 0; i < beats_.size(); ++i)
-        if (beats_[i] && now - beats_[i]->at > kPatience) return static_cast<Part>(i);
+        if (beats_[i] && now - beats_[i]->at > beats_[i]->patience) return static_cast<Part>(i);
     return std::nullopt;
 }
 

@@ -31,6 +31,8 @@ class Heartbeats {
 
     /// A part that has to get on; from now on it has this long to begin.
     void expect(Part part, Instant now);
+    /// From now on it hangs only after so long: it has to wait for something, or no more.
+    void give(Part part, Instant patience);
     /// Its count as it is now. That of a part that is not expected means nothing.
     void see(Part part, std::uint64_t count, Instant now);
     /// After work of this thread that had to take long (a scene that is made): nobody else had a chance to be seen. Button and lamps
@@ -48,6 +50,7 @@ class Heartbeats {
     struct Beat {
         std::uint64_t count = 0;
         Instant at{0};  ///< when it was seen to move
+        Instant patience = kPatience;
     };
     std::array<std::optional<Beat>, std::size(kParts)> beats_{};
 };

@@ -11,8 +11,9 @@ namespace eddy {
 
 class Panel::Thread {
   public:
-    Thread(Gpio& gpio, const GpioConfig& config, const Clock& clock, Instant patience)
-        : work(gpio, config), clock_(clock), patience_ends_(clock.now() + patience) {
+    Thread(Gpio& gpio, const GpioConfig& config, const Clock& clock, const std::filesystem::path& stop_file,
+           Instant patience)
+        : work(gpio, config, stop_file), clock_(clock), patience_ends_(clock.now() + patience) {
         thread_ = std::thread([this] { run(); });
     }
     ~Thread() {
@@ -51,8 +52,9 @@ class Panel::Thread {
     std::thread thread_;
 };
 
-Panel::Panel(Gpio& gpio, const GpioConfig& config, const Clock& clock, Instant patience)
-    : thread_(std::make_unique<Thread>(gpio, config, clock, patience)) {}
+Panel::Panel(Gpio& gpio, const GpioConfig& config, const Clock& clock, const std::filesystem::path& stop_file,
+             Instant patience)
+    : thread_(std::make_unique<Thread>(gpio, config, clock, stop_file, patience)) {}
 Panel::~Panel() = default;
 
 void Panel::show(LampCode code) {
@@ -66,6 +68,9 @@ const StopInput& Panel::stop_input() const {
 }
 bool Panel::settled() const {
     return thread_->settled();
+}
+bool Panel::stop_was_held() const {
+    return thread_->work.stop_was_held();
 }
 HandleLight Panel::handle_light() const {
     return thread_->work.handle_light();

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -37,8 +38,9 @@ class Panel {
     static constexpr Instant kPatience = std::chrono::seconds(60);
 
     /// `gpio` and `clock` must outlive it. Throws nothing but for want of memory or threads: what cannot be had is told in
-    /// news().trouble. Waits for no line: a bridge may hang.
-    Panel(Gpio& gpio, const GpioConfig& config, const Clock& clock, Instant patience = kPatience);
+    /// news().trouble. Waits for no line: a bridge may hang. `stop_file`: where a stop is remembered (stop_memory.h).
+    Panel(Gpio& gpio, const GpioConfig& config, const Clock& clock,
+          const std::filesystem::path& stop_file = {}, Instant patience = kPatience);
     /// All lamps are dark then.
     ~Panel();
     Panel(const Panel&) = delete;
@@ -53,6 +55,8 @@ class Panel {
     PanelNews news();
     /// From then on stop_input() is true to what its line says, or nobody waits for the line any longer.
     bool settled() const;
+    /// The run before this one ended while the stop was pressed, or before somebody clicked: HandOrders::stay_stopped().
+    bool stop_was_held() const;
     /// For HapticLoop, which must not begin before settled(), on the same clock. Never pressed where there is no stop input.
     const StopInput& stop_input() const;
     /// For HapticExchange::light, of the code that is shown now.

@@ -11,13 +11,14 @@ GpioWish lamp_of(const GpioConfig& config) {
 
 }  // namespace
 
-PanelWork::PanelWork(Gpio& gpio, const GpioConfig& config)
+PanelWork::PanelWork(Gpio& gpio, const GpioConfig& config, const std::filesystem::path& stop_file)
     : button_line_(gpio, config.button, {.active_low = config.button_active_low}),
       stop_(gpio, config.stop, {.active_low = config.stop_active_low}),
       green_(gpio, config.lamp_green, lamp_of(config)),
       amber_(gpio, config.lamp_amber, lamp_of(config)),
       red_(gpio, config.lamp_red, lamp_of(config)),
       stopped_(stop_.wanted()),
+      stop_memory_(stop_file),
       stop_input_(stop_.wanted()) {}
 
 void PanelWork::work(Instant now) {
@@ -47,6 +48,8 @@ void PanelWork::see_stop(Instant now) {
         news_.force_back = false;
     }
     if (pressed) stop_seen_ = true;
+    // A line that has not come up yet was not pressed by anybody.
+    if (stopped_ && stop_seen_) stop_memory_.pressed();
 }
 
 void PanelWork::see_button(Instant now) {
@@ -54,7 +57,10 @@ void PanelWork::see_button(Instant now) {
     if (!news.click && !news.guide && !news.shutdown && !news.factory) return;
     const std::lock_guard lock(mutex_);
     if (news.click) ++news_.resets;
-    news_.force_back |= news.click && !stopped_;
+    if (news.click && !stopped_) {
+        news_.force_back = true;
+        stop_memory_.clicked();
+    }
     news_.guide |= news.guide;
     news_.shutdown |= news.shutdown;
     news_.factory |= news.factory;

@@ -5,6 +5,7 @@
 
 #include "firmware/exhibit/button.h"
 #include "firmware/exhibit/panel.h"
+#include "firmware/exhibit/stop_memory.h"
 #include "firmware/haptic/stop_input.h"
 #include "hal/gpio/kept_line.h"
 
@@ -17,7 +18,8 @@ class PanelWork {
     static constexpr Instant kStopRests = std::chrono::milliseconds(20);
 
     /// `gpio` must outlive it. Without a stop input stop_input() is never pressed; else it is until work() has found its line let go.
-    PanelWork(Gpio& gpio, const GpioConfig& config);
+    /// `stop_file`: of StopMemory.
+    PanelWork(Gpio& gpio, const GpioConfig& config, const std::filesystem::path& stop_file = {});
 
     /// Looks at the inputs and drives the lamps. Every Panel::kPeriod, and when there are edges.
     void work(Instant now);
@@ -25,6 +27,8 @@ class PanelWork {
     void darken(Instant now);
     /// Whether the stop input is not wired or its line is there.
     bool stop_is_known() const { return !stop_.wanted() || stop_seen_; }
+    /// The run before this one ended while it was pressed, or before somebody clicked.
+    bool stop_was_held() const { return stop_.wanted() && stop_memory_.held(); }
     /// Of the button and of the stop input; -1: none.
     std::array<int, 2> edges_fds() const { return {button_line_.edges_fd(), stop_.edges_fd()}; }
 
@@ -47,6 +51,7 @@ class PanelWork {
     std::atomic<bool> stop_seen_{false};
     bool stopped_;
     Instant stop_pressed_at_{0};  // last seen so
+    StopMemory stop_memory_;
 
     std::atomic<LampCode> asked_{LampCode::Starting};
     StopInput stop_input_;

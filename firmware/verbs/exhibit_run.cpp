@@ -30,11 +30,15 @@ constexpr Instant kBlink = 2s;
 constexpr Instant kGuide = 60s;
 /// Between two looks whether there is a graphics card by now.
 constexpr Instant kCardEvery = 5s;
+/// A USB bus that resets itself, as often as the kernel tries.
+constexpr Instant kBusPatience = 30s;
 /// Turns while nothing is shown.
 constexpr Instant kClosedTurn = 50ms;
 // Words for the next start and for systemd (eddy-poweroff.path), which read no settings: in the run folder as it is without them.
 constexpr const char* kFactoryMarker = "factory.request";
 constexpr const char* kPowerOff = "poweroff.request";
+// A word for the next start of this program, none for that of the machine.
+constexpr const char* kStopped = "stopped";
 // What the screen says while there is nothing to play.
 constexpr const char* kGettingReady = "Getting the fluid ready";
 const std::vector<std::string> kMadeAnew{"One moment", "The picture is being made anew."};
@@ -145,15 +149,18 @@ void ExhibitRun::open() {
     const Exhibit& exhibit = settings_->exhibit();
     if (is_wired(exhibit.gpio)) {
         gpio_ = make_real_gpio();
-        panel_.emplace(*gpio_, exhibit.gpio, clock_);
+        panel_.emplace(*gpio_, exhibit.gpio, clock_, run_folder(options_) / kStopped);
     }
     open_hand();
     if (!options_.record.empty()) prepare_folder("--record", options_.record);
     recording_.begin(options_.record);
     office_.service().preparing(clock_.now(), "opening the screen");
-    front_.emplace(open_display(exhibit.display, exhibit.screen, exhibit.state_dir), *hand_,
-                   is_folder(exhibit.state_dir) ? screen_memory(exhibit.state_dir) : std::filesystem::path(),
-                   exhibit.screen.max_pixels);
+    // Where somebody starts the program again and again, a card that is not there yet is no reason to end.
+    const bool waits = office_.has_manager() && exhibit.display == DisplayChoice::Kms;
+    front_.emplace(
+        open_display(waits ? DisplayChoice::Auto : exhibit.display, exhibit.screen, exhibit.state_dir),
+        *hand_, is_folder(exhibit.state_dir) ? screen_memory(exhibit.state_dir) : std::filesystem::path(),
+        exhibit.screen.max_pixels);
     prelude(kGettingReady);
     visitors_.emplace(Seconds(exhibit.unattended.idle_after_s));
     opening_.emplace(exhibit.hours);
@@ -169,6 +176,10 @@ void ExhibitRun::open_hand() {
                   flights_folder(exhibit), panel_ ? &panel_->stop_input() : nullptr);
     hand_->orders().set_ceiling(exhibit.max_force_n);
     allow_force();
+    if (panel_ && panel_->stop_was_held()) {
+        hand_->orders().stay_stopped();
+        office_.say(Event::Note, "the stop was pressed before this start: no force until somebody clicks");
+    }
     if (crash_) crash_->watch(hand_->flights());
 }
 
@@ -376,9 +387,11 @@ void ExhibitRun::heed_hours(Instant now) {
     if (is_open_) begin_anew("it opens");
 }
 
-/// The factory's settings name no stop input: where they stand in for the owner's there is one, perhaps, that nobody looks at.
+/// The factory's settings name no stop input, and the last good ones perhaps another: where they stand in for the owner's there
+/// may be one that nobody looks at.
 void ExhibitRun::allow_force() {
-    hand_->orders().allow(is_open_ && !verdict_.safe && !settings_->report().stands_in);
+    const ConfigReport& settings = settings_->report();
+    hand_->orders().allow(is_open_ && !verdict_.safe && !settings.stands_in && !settings.stop_unread);
 }
 
 void ExhibitRun::begin_anew(const std::string& why) {
@@ -515,8 +528,7 @@ void ExhibitRun::alive() {
     if (!settings_->is_held_up(now)) beats.see(Part::Config, beats_, now);
     // A loop whose device comes or goes may have to wait for the kernel; there is no force then.
     const LoopReport& loop = hand_->exchange().report.newest();
-    if (hand_runs_ && hand_->has_device() && loop.device != HapticState::Ready)
-        beats.expect(Part::Haptic, now);
+    beats.give(Part::Haptic, loop.device == HapticState::Ready ? Heartbeats::kPatience : kBusPatience);
     beats.see(Part::Haptic, loop.ticks, now);
     if (panel_) beats.see(Part::Gpio, panel_->beats(), now);
     if (const auto part = beats.hanging(now); part != hanging_) tell_of_hang(part);

@@ -121,7 +121,11 @@ void RunSettings::taken(const ConfigOffer& offer) {
     taken_at_s_ = static_cast<double>(std::time(nullptr));
     office_.journal().set_config_hash(offer.hash);
     if (offer.source == ConfigSource::LastGood)
-        office_.say(Event::ConfigFellBack, "the last good settings, for those in the folder cannot be used");
+        office_.say(
+            Event::ConfigFellBack,
+            std::string("the last good settings, for those in the folder cannot be used") +
+                (report().stop_unread ? "; no force, for those name another stop input, which nobody looks at"
+                                      : ""));
     if (offer.source == ConfigSource::Factory && report().stands_in && !good_)
         office_.say(
             Event::ConfigFellBack,

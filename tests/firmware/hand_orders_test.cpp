@@ -69,6 +69,18 @@ TEST(HandOrders, GivenAnewForgetNoRestart) {
     EXPECT_EQ(exchange.orders.newest().restarts, 1u);
 }
 
+TEST(HandOrders, StayStoppedUntilARestart) {
+    HapticExchange exchange;
+    HandOrders orders(exchange);
+    orders.stay_stopped();
+    EXPECT_TRUE(exchange.orders.newest().stop);
+    orders.give({.enabled = true});
+    EXPECT_TRUE(exchange.orders.newest().stop) << "whatever a scene orders";
+    orders.restart();
+    EXPECT_FALSE(exchange.orders.newest().stop);
+    EXPECT_EQ(exchange.orders.newest().restarts, 1u);
+}
+
 TEST(HandOrders, NeverReleaseAStopByThemselves) {
     HapticExchange exchange;
     HandOrders orders(exchange);

@@ -542,6 +542,35 @@ TEST_F(Exhibits, SayWhenTheFactorysStandInForThoseOfTheOwner) {
     EXPECT_TRUE(intake_->report().stands_in) << "nobody has looked for others";
 }
 
+// The last good settings would give force beside a stop contact that was wired since, and that nobody reads.
+TEST_F(Exhibits, SayWhenTheLastGoodOnesDoNotReadTheStopThatTheNewOnesName) {
+    const auto fall_back = [&](const std::string& good, const std::string& bad) {
+        std::filesystem::remove_all(scratch_.path() / "state/config");
+        write("exhibit.toml", good);
+        start();
+        pass(31s);
+        crash();
+        write("exhibit.toml", bad);
+        start();
+        EXPECT_EQ(answer()["source"], "last-good") << bad;
+        EXPECT_EQ(answer()["stands_in"], false) << bad;
+        return answer()["stop_unread"].get<bool>();
+    };
+    const std::string plain = "max_force_n = 3\n", wired = plain + "[gpio]\nbutton = \"B\"\nstop = \"S\"\n";
+    EXPECT_TRUE(fall_back(plain, "scene = \"nowhere\"\n[gpio]\nbutton = \"B\"\nstop = \"S\"\n"));
+    EXPECT_TRUE(fall_back(plain, "scene = \n[gpio]\nbutton = \"B\"\n  stop= 'S' # new\n")) << "no TOML";
+    EXPECT_TRUE(fall_back(wired, "scene = \"nowhere\"\n[gpio]\nbutton = \"B\"\nstop = \"S2\"\n"));
+    EXPECT_TRUE(fall_back(
+        wired, "scene = \"nowhere\"\n[gpio]\nbutton = \"B\"\nstop = \"S\"\nstop_active_low = true\n"));
+    EXPECT_FALSE(
+        fall_back(plain, "scene = \n[gpio]\nstop = \"\" # none\nstop_active_low = false\n# stop = \"S\"\n"));
+    EXPECT_FALSE(fall_back(wired, "scene = \n"));
+    EXPECT_FALSE(fall_back(wired, "scene = \"nowhere\"\n[gpio]\nbutton = \"B\"\nstop = \"S\"\n"));
+    write("exhibit.toml", plain);
+    start();
+    EXPECT_EQ(answer()["stop_unread"], false);
+}
+
 TEST_F(Exhibits, SayThatTheFactorysStandInUntilTheOwnersAreInForceWhole) {
     write("exhibit.toml", "[gpio]\nbutton = \"bridge:0\"\nstop = \"bridge:1\"\nmax_force_n = 3\n");
     start();

@@ -13,6 +13,7 @@
 #include "firmware/haptic/flight_rerun.h"
 #include "hal/gpio/emulated_gpio.h"
 #include "tests/firmware/haptic/loop_rig.h"
+#include "tests/scratch_folder.h"
 
 namespace eddy {
 namespace {
@@ -36,7 +37,8 @@ struct Desk {
     PanelWork work;
     Instant now{0};
 
-    explicit Desk(const GpioConfig& config = all_wired()) : work((make(gpio), gpio), config) {}
+    explicit Desk(const GpioConfig& config = all_wired(), const std::filesystem::path& stop_file = {})
+        : work((make(gpio), gpio), config, stop_file) {}
 
     static void make(EmulatedGpio& gpio) {
         gpio.add("bridge", {"", ""}, false);
@@ -69,6 +71,47 @@ TEST(Panel, TellsOfAClickOnce) {
     desk.press_button(200ms);
     EXPECT_EQ(desk.work.news().resets, 2U);
     EXPECT_EQ(desk.work.news().resets, 0U);
+}
+
+// A crash, or a settings file that needs a new process, is no click.
+TEST(Panel, AStopOutlivesTheProgramUntilSomebodyClicks) {
+    const ScratchFolder folder;
+    const std::filesystem::path file = folder.path() / "stopped";
+    const auto was_held = [&](const std::function<void(Desk&)>& then) {
+        Desk desk(all_wired(), file);
+        const bool held = desk.work.stop_was_held();
+        desk.run(100ms);
+        then(desk);
+        return held;
+    };
+    const auto nothing = [](Desk&) {};
+    EXPECT_FALSE(was_held(nothing));
+    EXPECT_FALSE(was_held([](Desk& desk) {
+        desk.press_stop(true);
+        desk.run(100ms);
+        desk.press_stop(false);
+        desk.run(1s);
+    })) << "it was not yet";
+    EXPECT_TRUE(was_held(nothing));
+    EXPECT_TRUE(was_held([](Desk& desk) {
+        desk.press_stop(true);
+        desk.press_button(200ms);
+    })) << "nor is a click while it is pressed the end of it";
+    EXPECT_TRUE(was_held([](Desk& desk) { desk.press_button(200ms); }));
+    EXPECT_FALSE(was_held(nothing)) << "somebody has clicked";
+    EXPECT_FALSE(was_held([](Desk& desk) {
+        desk.gpio.unplug("bridge");
+        desk.run(1s);
+    }));
+    EXPECT_TRUE(was_held(nothing)) << "a bridge that went away counts as pressed";
+}
+
+TEST(Panel, ABridgeThatIsNotThereAtTheStartIsNoStop) {
+    const ScratchFolder folder;
+    EmulatedGpio gpio;
+    PanelWork work(gpio, all_wired(), folder.path() / "stopped");
+    for (Instant now{0}; now < 2s; now += Panel::kPeriod) work.work(now);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "stopped"));
 }
 
 TEST(Panel, TellsOfGuideAndShutdown) {
@@ -485,7 +528,7 @@ TEST(PanelThread, ABridgeThatHangsFromTheStartKeepsNobodyWaiting) {
     Desk::make(emulated);
     HangingGpio gpio(emulated);
     gpio.hang(true);
-    const Panel panel(gpio, all_wired(), clock, 100ms);
+    const Panel panel(gpio, all_wired(), clock, {}, 100ms);
     EXPECT_FALSE(panel.settled());
     EXPECT_TRUE(soon([&] { return panel.settled(); }));
     EXPECT_TRUE(panel.stop_input().pressed(clock.now()));
@@ -524,7 +567,7 @@ TEST(PanelThread, WaitsForABridgeThatComesUpLater) {
         gpio.plug_in("bridge");
     });
     const RealClock clock;
-    const Panel panel(gpio, all_wired(), clock, 60s);
+    const Panel panel(gpio, all_wired(), clock, {}, 60s);
     EXPECT_FALSE(panel.settled());
     EXPECT_TRUE(soon([&] { return panel.settled(); }));
     EXPECT_FALSE(panel.stop_input().pressed(clock.now()));
@@ -534,10 +577,10 @@ TEST(PanelThread, WaitsForABridgeThatComesUpLater) {
 TEST(PanelThread, DoesNotWaitForeverAndIsStoppedThen) {
     EmulatedGpio gpio;
     const RealClock clock;
-    const Panel panel(gpio, all_wired(), clock, 100ms);
+    const Panel panel(gpio, all_wired(), clock, {}, 100ms);
     EXPECT_TRUE(soon([&] { return panel.settled(); }));
     EXPECT_TRUE(panel.stop_input().pressed(clock.now()));
-    Panel unwired(gpio, GpioConfig{}, clock, 60s);
+    Panel unwired(gpio, GpioConfig{}, clock, {}, 60s);
     EXPECT_TRUE(unwired.settled());
     EXPECT_FALSE(unwired.stop_input().pressed(clock.now()));
     EXPECT_EQ(unwired.news().trouble, "");

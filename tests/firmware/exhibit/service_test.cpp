@@ -87,6 +87,22 @@ TEST_F(ServiceTest, NoticesAHangingHandWithinTenSecondsThoughThePictureMoves) {
     EXPECT_EQ(service_.heartbeats().hanging(40s), Part::Haptic);
 }
 
+TEST_F(ServiceTest, AHandThatWaitsForItsBusHasLongerButNotForEver) {
+    begin();
+    service_.heartbeats().give(Part::Haptic, 30s);
+    run(0s, 20s, 0s);
+    EXPECT_EQ(service_.heartbeats().hanging(20s), std::nullopt);
+    EXPECT_GE(fed(), 8);
+    run(20s, 31s, 0s);
+    EXPECT_EQ(service_.heartbeats().hanging(31s), Part::Haptic);
+    EXPECT_TRUE(service_.heartbeats().needs_restart(31s));
+    run(31s, 32s, 32s);
+    service_.heartbeats().give(Part::Haptic, Heartbeats::kPatience);
+    EXPECT_EQ(service_.heartbeats().hanging(32s), std::nullopt);
+    run(32s, 35s, 32s);
+    EXPECT_EQ(service_.heartbeats().hanging(35s), Part::Haptic);
+}
+
 TEST_F(ServiceTest, ButtonAndLampsThatHangAreToldOfAndEndNothing) {
     begin();
     service_.heartbeats().expect(Part::Gpio, 0s);
