@@ -19,7 +19,7 @@ class ImageHealth : public testing::Test {
         write_config_report({told_.path() / "status"}, settings);
     }
     std::string say(const std::string& what) {
-        const std::string command = "told=" + told_.path().string() +
+        const std::string command = "cd " + told_.path().string() + "; told=" + told_.path().string() +
                                     "; . " EDDY_SOURCE_DIR "/image/root/usr/lib/eddy-image/health; " + what;
         FILE* shell = ::popen(command.c_str(), "r");
         if (!shell) return "no shell";
@@ -56,6 +56,24 @@ TEST_F(ImageHealth, LacksAScreenThatCannotBeUsedAndSettingsThatAreNotTaken) {
     settings.stands_in = true;
     tell(status, settings);
     EXPECT_EQ(say("lacks"), "screen\nsettings\n");
+}
+
+// As they lie in the firmware's partition: a version that ends like another is another.
+TEST_F(ImageHealth, FindsTheProgramsOfAVersionAndOfNoOther) {
+    const auto found = [&](const std::string& version, const std::string& more = "") {
+        return say(
+            "printf '%s\\n' eddy-0001-2.efi eddy-0002-hall-2.efi eddy-0003-2+1-2.efi "
+            "eddy-0004-update-2+0-3.efi "
+            "eddy-0005-1x0.efi eddy-0006-1.0+3.efi eddy-0007-2.efi.part >all; "
+            ". " EDDY_SOURCE_DIR "/image/root/usr/lib/eddy-image/disk; programs_of " +
+            version + " " + more + " <all");
+    };
+    EXPECT_EQ(found("2"), "eddy-0001-2.efi\neddy-0003-2+1-2.efi\n");
+    EXPECT_EQ(found("hall-2"), "eddy-0002-hall-2.efi\n");
+    EXPECT_EQ(found("1.0"), "eddy-0006-1.0+3.efi\n");
+    EXPECT_EQ(found("2", "+0-[0-9]*"), "");
+    EXPECT_EQ(found("update-2", "+0-[0-9]*"), "eddy-0004-update-2+0-3.efi\n");
+    EXPECT_EQ(found("2", "'+[0-9-]*'"), "eddy-0003-2+1-2.efi\n");
 }
 
 }  // namespace
