@@ -31,7 +31,10 @@ def each_time(bench):
         show(bench, e)
         hand(bench, e)
         button(bench, e)
+        guide(bench, e)
         stop(bench, e)
+        stop_and_crash(bench, e)
+        closed(bench, e)
         settings(bench, e)
         another_scene(bench, e)
         blows(bench, e, CRASH, HANG)
@@ -109,6 +112,53 @@ def stop(bench, e):
             raise Failed(f"a force of {force} N after the stop")
         bench.bridge.tell(f"press {BUTTON} 1000")
         bench.want_lamp("green", "a show with a handle")
+        want_force(bench, s)
+
+
+def guide(bench, e):
+    with bench.step("the button is held for four seconds: words on the screen; a click: the show again"):
+        # It may take a slow machine a while to see that the button is down.
+        bench.bridge.tell(f"press {BUTTON} 5000")
+        until("words in place of the show", PATIENCE, lambda: not e.picture() and something_drawn(e.machine))
+        bench.bridge.tell(f"press {BUTTON} 1000")
+        e.wait_for_picture(PATIENCE)
+
+
+def stop_and_crash(bench, e):
+    with bench.step("the program crashes after a stop: no force until the button is pressed") as s:
+        bench.bridge.tell(f"high {STOP}")
+        bench.want_lamp("red", "stopped", blinks=False)
+        bench.bridge.tell(f"low {STOP}")
+        said = len(e.machine.said())
+        e.machine.ask(f"kill -SEGV {e.process()}")
+        e.wait_for_show(PATIENCE, said)
+        e.wait_for_status("the handle to be back", lambda s: s["haptics"]["state"] == "ready", PATIENCE)
+        bench.want_lamp("red", "stopped")
+        begin = time.time()
+        stir(bench)
+        if (force := bench.peak_force_n(begin)) > 0:
+            raise Failed(f"a force of {force} N after the stop")
+        bench.bridge.tell(f"press {BUTTON} 1000")
+        bench.want_lamp("green", "a show with a handle")
+        want_force(bench, s)
+
+
+def closed(bench, e):
+    file = f"{CONFIG}/conf.d/60-hours.toml"
+    with bench.step("it closes: a dark screen, no force, and its lamp; it opens: the show again") as s:
+        # There is no network to set the clock by: what would tell of that.
+        e.machine.ask("mkdir -p /run/systemd/timesync && touch /run/systemd/timesync/synchronized")
+        days = ("monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday")
+        e.write(file, "[hours]\n" + "".join(f'{day} = "closed"\n' for day in days))
+        e.wait_for_status("it to be closed", lambda status: status["exhibit"]["state"] == "closed", PATIENCE)
+        until("a dark screen", PATIENCE, lambda: e.machine.screen().is_black())
+        time.sleep(2)
+        begin = time.time()
+        stir(bench)
+        if (force := bench.peak_force_n(begin)) > 0:
+            raise Failed(f"a force of {force} N in a closed house")
+        e.machine.ask(f"rm {file}")
+        e.wait_for_picture(PATIENCE)
         want_force(bench, s)
 
 
