@@ -34,7 +34,8 @@ glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const H
     const EnergyMatch::Shares shares = match_.follow(model_.drag_ns_m(), model_.added_kg(), dt);
     const glm::dvec3 explained_n = model_.force_n(scale * shares.drag * hand_.velocity_m_s(),
                                                   scale * shares.added * hand_.acceleration_m_s2());
-    const glm::dvec3 damping_n = passivity_.damping_n(hand_.velocity_m_s());
+    const glm::dvec3 damping_n =
+        passivity_.damping_n(hand_.velocity_m_s(), at_handle * shares.drag * model_.drag_ns_m());
     // The more the model explains, the less of the rest is the hand's: it may come later and smoother.
     const Seconds smoothed = fluid.fluid_period / (1.0 - kLaterShare * model_.explained());
     glm::dvec3 rest_n = filter_(gain * unexplained_n, smoothed, dt);

@@ -27,7 +27,8 @@ void Passivity::received(double received_j, double stored_j, Instant pose_time) 
     Entry then = now_;
     for (std::size_t back = 1; back <= kKept; ++back) {
         const Entry& entry = past_[(next_ + kKept - back) % kKept];
-        if (entry.at > then.at) break;  // from before the last beginning; what was never written is of the very beginning
+        if (entry.at > then.at)
+            break;  // from before the last beginning; what was never written is of the very beginning
         then = entry;
         if (entry.at <= pose_time) break;
     }
@@ -41,12 +42,13 @@ void Passivity::received(double received_j, double stored_j, Instant pose_time) 
     least_j_ = std::min(least_j_, energy_j());
 }
 
-glm::dvec3 Passivity::damping_n(const glm::dvec3& velocity_m_s) const {
+glm::dvec3 Passivity::damping_n(const glm::dvec3& velocity_m_s, double drag_ns_m) const {
     const double debt_j = -energy_j() - stored_j_;
     const double speed2 = glm::dot(velocity_m_s, velocity_m_s);
     if (!(debt_j > 0.0) || !(speed2 > 0.0) || !answered_) return glm::dvec3(0.0);
     const double moves = speed2 / (speed2 + kStillMS * kStillMS);
-    return -moves * std::min(kMostInjectedNsM, debt_j / (speed2 * kPayBack.count())) * velocity_m_s;
+    const double most_ns_m = std::max(0.0, kMostTrackedNsM - drag_ns_m);
+    return -moves * std::min(most_ns_m, debt_j / (speed2 * kPayBack.count())) * velocity_m_s;
 }
 
 void Passivity::given(const glm::dvec3& force_n, const glm::dvec3& damping_n) {

@@ -3,12 +3,19 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "firmware/haptic/motion_tracker.h"
+#include "firmware/haptic/stability_limits.h"
 #include "hal/clock.h"
 
 namespace eddy {
 
-/// The most that may be injected; the Falcon's own controllers go no higher (CHAI3D, CDeltaDevices.cpp: 20 N s/m).
-inline constexpr double kMostInjectedNsM = 20.0;
+/// What damps a handle by a velocity that is tracked, drag of the model and damping together, may be no more than this, or it drives
+/// the handle that it should hold. The tracker's velocity is p^2 (3 s + p) / (s + p)^3 of the true one (three poles p,
+/// motion_tracker.h), so a handle of mass m under a damper B goes m s (s + p)^3 + B p^2 (3 s + p) = 0. By Routh's
+/// criterion that dies away while 9 b^2 - 12 b - 8 < 0, b = B / (m p): while B < 1.82 m p, 10.9 N s/m with the calm poles, and
+/// swings at 1.47 p, 9 Hz, beyond. The 1.5 ms of encoders, exchange and hold take 5 % of that, an added mass of m / 2 another 5 %;
+/// half of it is used.
+inline constexpr double kMostTrackedNsM = kStabilityShare * 1.82 * kHandleMassKg * MotionTracker::kCalm_1_s;
 
 /// The passivity observer and controller of Hannaford and Ryu (IEEE Trans. Robotics and Automation 18, 2002), for all that lies
 /// between the fluid and the hand: the frame of delay, the hold, the filter, the local model. On the one side the fluid
@@ -36,8 +43,9 @@ class Passivity {
     /// has now [J of the hand].
     void received(double received_j, double stored_j, Instant pose_time);
     /// The damping force for this tick, at this velocity on the way that moved_to() counts: against a wall the handle flickers
-    /// and the body stands still, and damping that flicker pays no debt back.
-    glm::dvec3 damping_n(const glm::dvec3& velocity_m_s) const;
+    /// and the body stands still, and damping that flicker pays no debt back. `drag_ns_m`: what else is given against that
+    /// velocity.
+    glm::dvec3 damping_n(const glm::dvec3& velocity_m_s, double drag_ns_m) const;
     /// The whole force that is given until the next tick, and how much of it is damping.
     void given(const glm::dvec3& force_n, const glm::dvec3& damping_n);
     /// The force does not come from the fluid, or not as a whole: the books begin anew.

@@ -143,7 +143,7 @@ Goal rest(const Study& study, bool known) {
         }
         if (++swinging <= 4)
             which += fmt::format("{}{} {} at {:.0f}: {:.3f} N, {:.2f} mm, of the flow {:.3f} N, {:.2f} mm",
-                                 which.empty() ? "; " : ", ", row.fluid, to_string(row.holder), row.rate_hz,
+                                 which.empty() ? "; " : ", ", row.fluid, held_how(row), row.rate_hz,
                                  found.force_n, 1e3 * found.position_m, flow.force_n, 1e3 * flow.position_m);
     }
     if (swinging > 4) which += fmt::format(", and {} more", swinging - 4);

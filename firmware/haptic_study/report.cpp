@@ -56,7 +56,7 @@ std::string swing_table(const Study& study) {
         "|---|---|---|---|---|---|---|---|\n";
     for (const SwingRow& row : study.swings)
         text += fmt::format("| {} | {} | {:.0f} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} |\n", row.fluid,
-                            to_string(row.law), row.rate_hz, to_string(row.holder), row.swing.force_n,
+                            to_string(row.law), row.rate_hz, held_how(row), row.swing.force_n,
                             1e3 * row.swing.position_m, row.carried.force_n, 1e3 * row.carried.position_m);
     return text;
 }
@@ -142,7 +142,7 @@ and f cycles, the share sinc^2(f / fs) cos^2(pi f / fs). Divided by that, it is 
 ## Coming to rest
 
 What still swings, as half of the largest excursion in the last second: the hand leaps by 20 mm, held by an arm (0.554 kg, 6.45 N s/m,
-135 N/m, with the handle), by one three times as stiff and damped, or lets the handle (0.15 kg, 0.5 N s/m) go at 0.13 m/s, which
+135 N/m, with the handle), by one three times as stiff and damped, or lets the handle (0.15 kg, 0.5 N s/m) go out of a circle of one to five turns a second, which
 a jet carries to a soft wall at the bounds of the tank. The known
 fluid is here as steep as the gain is limited to. `fixed`: the handle cannot move, so what swings is the flow itself. A flow that
 sheds eddies shakes a handle, which is no limit cycle of the loop: beside each is what the force on the fixed handle, less its mean,
@@ -197,7 +197,7 @@ std::string csv_of(const Study& study) {
         line(r.fluid, trial, r.law, r.rate_hz, "drag_j", r.figures.drag_j);
     }
     for (const SwingRow& r : study.swings) {
-        const std::string trial = fmt::format("rest {}", to_string(r.holder));
+        const std::string trial = fmt::format("rest {}", held_how(r));
         line(r.fluid, trial, r.law, r.rate_hz, "force_n", r.swing.force_n);
         line(r.fluid, trial, r.law, r.rate_hz, "position_m", r.swing.position_m);
         line(r.fluid, trial, r.law, r.rate_hz, "carried_force_n", r.carried.force_n);

@@ -19,6 +19,9 @@ Scene scene_of(const std::string& name, int cells) {
     return scene;
 }
 
+/// Of kLetGoHz, what is tried in every scene: the slowest, and a brisk one.
+constexpr double kSceneLetGoHz[] = {1.0, 3.0};
+
 KnownFluid::Settings as_steep_as_allowed(double rate_hz) {
     return {.drag_ns_m = most_drag_ns_m(Seconds(1.0 / rate_hz)), .added_kg = kMostAddedKg};
 }
@@ -37,11 +40,13 @@ void study_known(Study& study) {
                 study.stirs.push_back(
                     {kKnown, law, rate_hz, stir_hz, stir_figures(fluid, law, rate_hz, stir_hz)});
             }
-            for (const Holder holder : {Holder::Arm, Holder::StiffArm, Holder::LetsGo}) {
+            const auto swing = [&](Holder holder, double stir_hz) {
                 KnownFluid fluid(as_steep_as_allowed(rate_hz));
-                study.swings.push_back({kKnown, law, rate_hz, holder,
-                                        swing_figures(coming_to_rest(fluid, law, rate_hz, holder))});
-            }
+                study.swings.push_back({kKnown, law, rate_hz, holder, stir_hz,
+                                        swing_figures(coming_to_rest(fluid, law, rate_hz, holder, stir_hz))});
+            };
+            for (const Holder holder : {Holder::Arm, Holder::StiffArm}) swing(holder, 1.0);
+            for (const double stir_hz : kLetGoHz) swing(Holder::LetsGo, stir_hz);
         }
     }
     for (const double rate_hz : kRatesHz) {
@@ -90,19 +95,26 @@ class SceneStudy {
     void swings() {
         for (const double rate_hz : kRatesHz) {
             std::vector<Felt> fixed;
-            for (const Holder holder : {Holder::Fixed, Holder::Arm, Holder::StiffArm, Holder::LetsGo}) {
+            const auto swing = [&](Holder holder, double stir_hz) {
                 const std::vector<Felt> ticks =
-                    coming_to_rest(*at(rate_hz), ForceLaw::Model, rate_hz, holder);
+                    coming_to_rest(*at(rate_hz), ForceLaw::Model, rate_hz, holder, stir_hz);
                 if (holder == Holder::Fixed) fixed = ticks;
-                SwingRow row{name_,  ForceLaw::Model,      rate_hz,
-                             holder, swing_figures(ticks), carried_figures(fixed, holder)};
+                SwingRow row{name_,
+                             ForceLaw::Model,
+                             rate_hz,
+                             holder,
+                             stir_hz,
+                             swing_figures(ticks),
+                             carried_figures(fixed, holder)};
                 // Where a jet has carried it, or an arm gave way, the flow may shake it more than in the middle.
                 if (!rests(row.swing, row.carried))
                     row.carried =
                         carried_figures(fixed_there(*at(rate_hz), ForceLaw::Model, rate_hz, ticks), holder);
                 study_.swings.push_back(row);
                 done_((holder == Holder::LetsGo ? 7.0 : 3.9) * rate_hz, "whether the handle comes to rest");
-            }
+            };
+            for (const Holder holder : {Holder::Fixed, Holder::Arm, Holder::StiffArm}) swing(holder, 1.0);
+            for (const double stir_hz : kSceneLetGoHz) swing(Holder::LetsGo, stir_hz);
         }
     }
     void pulls() {
@@ -112,7 +124,7 @@ class SceneStudy {
         }
     }
     static constexpr double kCircles = 2500.0 + 7.0 * 175.0, kStirs = 4.0 * 70.0 * 8.0,
-                            kSwings = (3.0 * 3.9 + 7.0) * 175.0, kPulls = 4.0 * 175.0;  ///< steps
+                            kSwings = (3.0 * 3.9 + 2.0 * 7.0) * 175.0, kPulls = 4.0 * 175.0;  ///< steps
 
   private:
     std::unique_ptr<SceneFluid> at(double rate_hz) const {
@@ -137,6 +149,11 @@ bool blows(const Scene& scene) {
 
 const char* to_string(ForceLaw law) {
     return law == ForceLaw::Filter ? "filter" : "model";
+}
+
+std::string held_how(const SwingRow& row) {
+    const char* holder = to_string(row.holder);
+    return row.holder == Holder::LetsGo ? fmt::format("{} at {:g} Hz", holder, row.stir_hz) : holder;
 }
 
 Study study(gles::Gpu* gpu, const StudyOrder& order,

@@ -38,11 +38,14 @@ struct SwingRow {
     ForceLaw law;
     double rate_hz;
     Holder holder;
+    double stir_hz;  ///< of the circle out of which it was let go
     Swing swing;
     /// What the force on a handle that cannot move makes of it: one in the middle, or, if it swings more than that explains, where it
     /// came to rest. Nothing in the known fluid, which does not flow.
     Swing carried{};
 };
+/// For tables: "arm", "let go at 3 Hz".
+std::string held_how(const SwingRow& row);
 struct PullRow {
     std::string fluid;
     double rate_hz;

@@ -100,12 +100,13 @@ StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double
     return f;
 }
 
-std::vector<Felt> coming_to_rest(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder) {
+std::vector<Felt> coming_to_rest(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder,
+                                 double stir_hz) {
     constexpr Seconds kUntil{1.4};
     const bool goes = holder == Holder::LetsGo;
     // Time to be carried to a wall by whatever flows.
     const Seconds duration(goes ? 7.0 : 3.9);
-    Handle handle(holder, goes ? circle(1.0) : stir_then_leap(kUntil));
+    Handle handle(holder, goes ? circle(stir_hz) : stir_then_leap(kUntil));
     return play(fluid, handle,
                 {.law = law,
                  .rate_hz = rate_hz,

@@ -45,9 +45,13 @@ StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double
 /// The mean of what an arm feels over a second in the middle of the tank, as a share of what the fluid gives after gain.
 double pull_share(StudyFluid& fluid, double rate_hz);
 
+/// An arm that lets go does so out of a circle of so many turns a second: at 0.1 to 0.3 m/s.
+inline constexpr double kLetGoHz[] = {1.0, 2.0, 3.0, 5.0};
+
 /// What the hand does and feels while it comes to rest: it has leapt by 20 mm, two seconds and a half before the end, or let the
-/// handle go at 0.13 m/s, 5.6 s before.
-std::vector<Felt> coming_to_rest(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder);
+/// handle go, 5.6 s before, out of a circle at `stir_hz`.
+std::vector<Felt> coming_to_rest(StudyFluid& fluid, ForceLaw law, double rate_hz, Holder holder,
+                                 double stir_hz = 1.0);
 /// What a handle feels that cannot move, where another came to rest in the end; for as long as the loop takes it for held.
 std::vector<Felt> fixed_there(StudyFluid& fluid, ForceLaw law, double rate_hz, std::span<const Felt> rested);
 /// What of that still swings in its last second.

@@ -71,6 +71,18 @@ TEST(ClosedLoop, ComesToRestWhoeverHoldsTheHandle) {
         }
 }
 
+// What takes energy out has a velocity that comes late, as all have; were it as steep as it liked, it would drive the handle.
+TEST(ClosedLoop, AHandleLetGoOutOfABriskStirComesToRest) {
+    for (const double rate_hz : kRatesHz)
+        for (const double stir_hz : kLetGoHz) {
+            KnownFluid fluid(steepest(rate_hz));
+            const Swing left =
+                swing_figures(coming_to_rest(fluid, ForceLaw::Model, rate_hz, Holder::LetsGo, stir_hz));
+            EXPECT_LT(left.force_n, 0.05) << rate_hz << ' ' << stir_hz;
+            EXPECT_LT(left.position_m, 1e-4) << rate_hz << ' ' << stir_hz;
+        }
+}
+
 TEST(ClosedLoop, WhatAFlowMakesOfAHandleIsItsForceOnThatHandlesMass) {
     // 0.03 N at 2 Hz on a mass of 0.15 kg with hardly any damping: 0.03 / (m w^2) = 1.27 mm.
     std::vector<Felt> fixed;
