@@ -56,9 +56,9 @@ class HapticDevice {
     /// The newest reading not yet handed out; nothing if none arrived since the last call or the state is not
     /// Ready.
     virtual std::optional<HandleReading> read() = 0;
-    /// Sends a force [N, Device frame] to the visitor's hand. Only Ready obeys; in every other state zero is
-    /// sent. A force that is not finite counts as zero. If the last command is still unanswered, this one
-    /// waits for the reply (newest wins).
+    /// Sends a force [N, Device frame] to the visitor's hand, in this tick. Only Ready obeys; in every other state zero is
+    /// sent. A force that is not finite counts as zero. While the last command is unanswered nothing is sent: the next
+    /// tick's force is newer than this one would be by then. If nobody commands it for some polls, it is sent zero.
     virtual void command(const glm::dvec3& force_n) = 0;
     /// From the next command on, while Ready, the light is this; until it is said for the first time, green. In other states it
     /// says what the device needs: red while it wants to be homed.

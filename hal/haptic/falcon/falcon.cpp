@@ -30,7 +30,7 @@ constexpr int kMaxBoots = 10;          // as libnifalcon's command line, vrpn an
 constexpr Instant kFaultTime = 5s;     // until the next try; somebody may have plugged in the power supply
 constexpr Instant kLostTime = 1200ms;  // of silence: a hundred unanswered commands (gborghesan/novint_falcon)
 constexpr Instant kHomedTime = 500ms;  // encoders jump when an axis finds its index: no force until they rest
-constexpr Instant kIdleTime = 3ms;     // Ready but not commanded: zero is sent, so that positions keep coming
+constexpr int kIdlePolls = 3;          // Ready but not commanded: zero is sent, so that positions keep coming
 
 constexpr Instant kForever = Instant::max();
 
@@ -83,7 +83,6 @@ void Falcon::poll(Instant now) {
         const int misses = exchange_.misses();
         reply = exchange_.poll(now);
         if (exchange_.misses() > misses) {
-            waiting_.reset();
             zero_next_ = true;
             if (step_ != Step::Probing) ++counters_.timeouts;
         }
@@ -175,18 +174,13 @@ void Falcon::ready(const std::optional<Reply>& reply) {
             homed_since_.reset();
             enter(Step::Homing, kForever);
             reading_.reset();
-            waiting_.reset();
             return homing(std::nullopt);
         }
         take(*reply);
     }
-    if (!exchange_.free()) return;
-    if (zero_next_)
-        send({});
-    else if (waiting_)
-        send_force(*std::exchange(waiting_, std::nullopt));
-    else if (now_ - sent_at_ >= kIdleTime)
-        send({});
+    // A force is for command() to send, later in this tick.
+    const bool idle = ++idle_polls_ > kIdlePolls;
+    if (exchange_.free() && (zero_next_ || idle)) send({});
 }
 
 void Falcon::fault() {
@@ -233,14 +227,13 @@ void Falcon::boot_failed() {
 void Falcon::become_ready() {
     tracker_.forget();
     reading_.reset();
-    waiting_.reset();
+    idle_polls_ = 0;
     enter(Step::Ready, kForever);
 }
 
 void Falcon::lose() {
     ++counters_.lost;
     reading_.reset();
-    waiting_.reset();
     exchange_.reset();
     enter(Step::Absent, kForever);
 }
@@ -267,10 +260,8 @@ std::optional<HandleReading> Falcon::read() {
 
 void Falcon::command(const glm::dvec3& force_n) {
     if (step_ != Step::Ready) return;
-    if (exchange_.free())
-        send_force(force_n);
-    else
-        waiting_ = force_n;
+    idle_polls_ = 0;
+    if (exchange_.free()) send_force(force_n);
 }
 
 void Falcon::send_force(const glm::dvec3& force_n) {
@@ -291,7 +282,6 @@ void Falcon::send(const Axes& motors) {
                     .green = light.green,
                     .blue = light.blue},
                    now_);
-    sent_at_ = now_;
     zero_next_ = false;
 }
 

@@ -93,10 +93,9 @@ class Falcon final : public HapticDevice {
     bool was_unhomed_ = false;            // in this Homing, so that the encoders have jumped
     std::optional<Instant> homed_since_;  // all three axes
     std::optional<Instant> replied_at_;   // last good reply
-    Instant sent_at_{0};                  // last command
-    bool zero_next_ = false;             // a reply stayed out: the next command is zero whatever is asked for
-    HandleLight light_{.green = true};   // while Ready
-    std::optional<glm::dvec3> waiting_;  // force asked for while a command was unanswered     [N, Device]
+    int idle_polls_ = 0;                  // while Ready: since the last command()
+    bool zero_next_ = false;            // a reply stayed out: the next command is zero whatever is asked for
+    HandleLight light_{.green = true};  // while Ready
     std::optional<HandleReading> reading_;  // not yet handed out
     HapticCounters counters_;
 };

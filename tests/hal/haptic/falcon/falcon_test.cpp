@@ -223,10 +223,53 @@ TEST(Falcon, KeepsAtMostOneCommandUnanswered) {
         rig.driver->command({2.0, 0.0, 0.0});
         ASSERT_LE(rig.board().frames() - frames, rig.driver->counters().exchanges - exchanges + 2);
     }
-    rig.run(1);
-    const auto made =
-        force_of(rig.board().plant().legs(), rig.board().last_command().motors, kMotorUnitsPerNm);
-    EXPECT_NEAR(made.x, 2.0, 0.01) << "of the commands that waited the newest won";
+}
+
+/// Along x, what the last frame asks of the motors [N].
+double asked_n(Rig& rig) {
+    return force_of(rig.board().plant().legs(), rig.board().last_command().motors, kMotorUnitsPerNm).x;
+}
+
+TEST(Falcon, SendsTheForceOfTheTickThatTheFrameGoesOutIn) {
+    Rig rig;
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.run(10);
+    for (int i = 1; i < 100; ++i) {
+        rig.tick({0.04 * i, 0.0, 0.0});
+        rig.device().poll(rig.now + std::chrono::microseconds(900));  // it has arrived
+        ASSERT_NEAR(asked_n(rig), 0.04 * i, 0.01) << i;
+    }
+    rig.tick();
+    rig.device().poll(rig.now + std::chrono::microseconds(900));
+    EXPECT_EQ(rig.board().last_command().motors, Axes{}) << "and zero at once";
+}
+
+TEST(Falcon, ATickThatComesLateIsNoReasonToLetGo) {
+    Rig rig;
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.run(10, {2.0, 0.0, 0.0});
+    for (int i = 0; i < 20; ++i) {
+        rig.now += std::chrono::milliseconds(i % 9);
+        rig.tick({2.0, 0.0, 0.0});
+        rig.device().poll(rig.now + std::chrono::microseconds(900));
+        ASSERT_NEAR(asked_n(rig), 2.0, 0.01) << i;
+    }
+}
+
+TEST(Falcon, WhenRepliesAreSlowStillSendsTheForceOfTheTick) {
+    Rig rig({.turnaround = std::chrono::milliseconds(4)});
+    ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+    rig.run(40);
+    int frames = 0;
+    for (int i = 1; i < 400; ++i) {
+        const auto before = rig.board().frames();
+        rig.tick({0.01 * i, 0.0, 0.0});
+        rig.device().poll(rig.now + std::chrono::microseconds(900));
+        if (rig.board().frames() == before) continue;
+        ++frames;
+        ASSERT_NEAR(asked_n(rig), 0.01 * i, 0.01) << i;
+    }
+    EXPECT_GT(frames, 60);
 }
 
 TEST(Falcon, DebouncesTheButtons) {
