@@ -12,7 +12,7 @@
 namespace eddy {
 namespace {
 
-constexpr std::string_view kFirstLine = "eddy flight 2";
+constexpr std::string_view kFirstLine = "eddy flight 3";
 /// An hour; those that are written have six seconds.
 constexpr std::size_t kMostTicks = 3'600'000;
 constexpr std::string_view kColumns =
@@ -22,7 +22,8 @@ constexpr std::string_view kColumns =
     "# fluid: force x y z [N], torque x y z [N m], number, for the pose of [ns], period [s], velocity x y z "
     "[m/s],\n"
     "#   acceleration x y z [m/s2], received stored [J]\n"
-    "# tick: time, since the last [ns], device's state, silence [s], whether it answered, handle x y z [m], "
+    "# tick: time, since the last [ns], device's state, whether it obeys, silence [s], whether it answered, "
+    "handle x y z [m], "
     "buttons, at [ns];\n"
     "#   then raw, filtered, sent force x y z [N], reason, body x y z [m], velocity x y z [m/s], whether "
     "known\n";
@@ -161,7 +162,7 @@ void each(F&& f, S& s) requires std::is_same_v<std::remove_const_t<S>, FluidSnap
 /// All but the fluid and the orders, which have lines of their own, and what follows from the rest.
 template <class F, class S>
 void each(F&& f, S& t) requires std::is_same_v<std::remove_const_t<S>, FlightTick> {
-    f(t.in.now), f(t.step), f(t.in.device), f(t.in.silence);
+    f(t.in.now), f(t.step), f(t.in.device), f(t.in.obeys), f(t.in.silence);
     bool answered = t.in.reading.has_value();
     HandleReading reading = t.in.reading.value_or(HandleReading{});
     f(answered), f(reading.position_m), f(reading.buttons), f(reading.taken_at);

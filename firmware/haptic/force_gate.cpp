@@ -14,18 +14,19 @@ ForceGate::ForceGate(const GateLimits& limits)
 
 glm::dvec3 ForceGate::operator()(const GateInput& in, Seconds dt) {
     if (!(dt.count() > 0.0)) dt = Seconds{0.0};
-    const bool went_stale = reason_ != GateReason::FluidStale;
+    const bool goes_on = reason_ == GateReason::FluidStale || reason_ == GateReason::DeviceUnsure;
     reason_ = judge(in);
     switch (reason_) {
         case GateReason::Open:
         case GateReason::Starting:
             return sent_n_ = follow(in, std::min(dt, kLongestRise));
         case GateReason::FluidStale:
-            if (went_stale) {
-                stale_for_ = Seconds(0.0);
-                had_ = std::max(had_, strength_);
-            }
+            hiccup(!goes_on, dt);
             return sent_n_ = fade(dt);
+        case GateReason::DeviceUnsure:
+            hiccup(!goes_on, dt);
+            strength_ = 0.0;
+            return sent_n_ = glm::dvec3(0.0);
         case GateReason::TooFast:
         case GateReason::Released:
         case GateReason::Disabled:
@@ -51,8 +52,19 @@ GateReason ForceGate::judge(const GateInput& in) {
     if (!in.device_ready) return GateReason::DeviceNotReady;
     if (!in.enabled) return GateReason::Disabled;
     if (in.speed_m_s > kFastestHandMS) return GateReason::TooFast;
+    if (in.device_unsure) return GateReason::DeviceUnsure;
     if (in.fluid_stale) return GateReason::FluidStale;
     return strength_ < 1.0 ? GateReason::Starting : GateReason::Open;
+}
+
+/// What takes the force for no longer than kHiccup leaves behind how much of it there was.
+void ForceGate::hiccup(bool begins, Seconds dt) {
+    if (begins) {
+        hiccup_for_ = Seconds(0.0);
+        had_ = std::max(had_, strength_);
+    }
+    hiccup_for_ += dt;
+    if (hiccup_for_ > kHiccup) had_ = 0.0;
 }
 
 // Straight to zero from where it is. The slew limit has no say: a slow one must not keep a force nobody
@@ -60,8 +72,6 @@ GateReason ForceGate::judge(const GateInput& in) {
 glm::dvec3 ForceGate::fade(Seconds dt) {
     const double rounding = 1e-9;  // 400 subtractions of 1/400 miss zero by 1e-14
     const double before = strength_;
-    stale_for_ += dt;
-    if (stale_for_ > kHiccup) had_ = 0.0;
     strength_ -= dt / kFade;
     if (strength_ < rounding) strength_ = 0.0;
     return before > 0.0 ? sent_n_ * (strength_ / before) : glm::dvec3(0.0);

@@ -13,6 +13,7 @@ enum class GateReason {
     Open,
     Starting,
     FluidStale,
+    DeviceUnsure,
     TooFast,
     Released,
     Disabled,
@@ -27,10 +28,12 @@ struct GateSentence {
     std::string_view word;  ///< for tables (force.csv)
     std::string_view sentence;
 };
-inline constexpr std::array<GateSentence, 10> kGateSentences{{
+inline constexpr std::array<GateSentence, 11> kGateSentences{{
     {GateReason::Open, "open", "the force reaches the hand"},
     {GateReason::Starting, "starting", "the force is being brought in gently"},
     {GateReason::FluidStale, "fluid_stale", "the fluid has not answered in time: the force fades out"},
+    {GateReason::DeviceUnsure, "device_unsure",
+     "the device was not sure where the handle is: its force comes back in a moment"},
     {GateReason::TooFast, "too_fast", "the handle moves faster than a hand should: no force"},
     {GateReason::Released, "released", "nobody seems to hold the handle: no force"},
     {GateReason::Disabled, "disabled", "force is switched off"},
@@ -54,7 +57,8 @@ inline constexpr double kFastestHandMS = 1.0;
 inline constexpr Seconds kSoftStart{1.0};
 inline constexpr Seconds kFade{0.040};  ///< of a force that nobody computes any more (law.h)
 /// A fluid that was stale for no longer than this was late, not dead (a picture that took 100 ms): its force fades as any does,
-/// and is back where it was so soon. Over kSoftStart a machine that is late twice a second would never have it whole.
+/// and is back where it was so soon. Over kSoftStart a machine that is late twice a second would never have it whole. The same
+/// for a device that missed a reply.
 inline constexpr Seconds kHiccup{0.100}, kQuickReturn{0.150};
 /// Motors hold the last force while a tick is late; the first tick after must not spend the whole gap in one
 /// step.
@@ -72,6 +76,7 @@ struct GateInput {
     bool enabled = false;              ///< dead man's switch: held, running and allowed, said anew each tick
     bool device_ready = false;         ///< Ready and has answered
     bool device_silent = false;        ///< reply missing too long; latches
+    bool device_unsure = false;        ///< it sends zero whatever it is told
     bool fluid_stale = true;           ///< fluid force too old to be believed
     bool reset = false;                ///< forget the latch; it closes again at once if its cause persists
 };
@@ -84,7 +89,7 @@ struct GateCounters {
 
 /// The only way to the motors. What comes out is finite, no longer than max_force_n, and moves no faster than
 /// slew_n_per_s except towards zero: at once for a fault, in at most kFade for a stale fluid. After any zero
-/// it returns over kSoftStart, after a hiccup of the fluid over kQuickReturn.
+/// it returns over kSoftStart, after a hiccup of the fluid or of the device over kQuickReturn.
 class ForceGate {
   public:
     ForceGate() = default;
@@ -97,15 +102,16 @@ class ForceGate {
 
   private:
     GateReason judge(const GateInput& in);
+    void hiccup(bool begins, Seconds dt);
     glm::dvec3 fade(Seconds dt);
     glm::dvec3 follow(const GateInput& in, Seconds dt);
 
     GateLimits limits_{};
     GateReason latch_ = GateReason::Open;  // DeviceSilent or NotFinite once seen
     GateReason reason_ = GateReason::Disabled;
-    double strength_ = 0.0;   // 0 shut .. 1 open: rises over kSoftStart or kQuickReturn, falls over kFade
-    double had_ = 0.0;        // before a stale fluid took it, if that was a hiccup
-    Seconds stale_for_{0.0};
+    double strength_ = 0.0;  // 0 shut .. 1 open: rises over kSoftStart or kQuickReturn, falls over kFade
+    double had_ = 0.0;       // before a hiccup took it
+    Seconds hiccup_for_{0.0};
     glm::dvec3 sent_n_{0.0};  // last tick's output
     GateCounters counters_{};
 };

@@ -81,6 +81,7 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
                          .enabled = in.orders.enabled,
                          .device_ready = ready,
                          .device_silent = silent,
+                         .device_unsure = !in.obeys,
                          .fluid_stale = is_stale(in.fluid, out.fluid_age),
                          .reset = reset};
     out.force_n = state.gate(gate, dt);

@@ -24,6 +24,7 @@ struct HapticInput {
     Instant now{0};
     std::optional<HandleReading> reading = std::nullopt;  ///< newest not yet handed out, if one arrived
     HapticState device = HapticState::Absent;
+    bool obeys = true;     ///< the device would do now what it is told
     Seconds silence{0.0};  ///< since the device's last good reply
     FluidSnapshot fluid{};
     HapticOrders orders{};

@@ -30,6 +30,7 @@ void HapticLoop::tick(Instant now) {
     HapticInput in{.now = now,
                    .reading = device_.read(),
                    .device = device_.state(),
+                   .obeys = device_.obeys(),
                    .silence = device_.silence(now),
                    .fluid = exchange_.fluid.newest(),
                    .orders = exchange_.orders.newest()};

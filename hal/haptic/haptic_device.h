@@ -60,6 +60,9 @@ class HapticDevice {
     /// sent. A force that is not finite counts as zero. While the last command is unanswered nothing is sent: the next
     /// tick's force is newer than this one would be by then. If nobody commands it for some polls, it is sent zero.
     virtual void command(const glm::dvec3& force_n) = 0;
+    /// Whether a command of this tick is obeyed, if one can be sent. While Ready it may be that it is not for a moment: it is not sure
+    /// where the handle is, and sends zero.
+    virtual bool obeys() const { return state() == HapticState::Ready; }
     /// From the next command on, while Ready, the light is this; until it is said for the first time, green. In other states it
     /// says what the device needs: red while it wants to be homed.
     virtual void show(const HandleLight& light) = 0;

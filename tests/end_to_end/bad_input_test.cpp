@@ -171,7 +171,7 @@ TEST_F(BadInput, AboutTheFalconIsNamed) {
 TEST_F(BadInput, OfAFlightIsNamed) {
     expect_refused({"replay", missing}, {missing, "cannot be read"});
     expect_refused({"replay", scene}, {scene, "is not a flight recording"});
-    expect_refused({"replay", folder.write("cut.flight", "eddy flight 2\nversion 0.1.0\n")},
+    expect_refused({"replay", folder.write("cut.flight", "eddy flight 3\nversion 0.1.0\n")},
                    {"cut.flight", "is not complete"});
     expect_refused({"replay", scene, "--plot", out + ".jpg"}, {"--plot", ".png"});
     expect_refused({"rt-selftest", "--haptics", "none"}, {"--haptics none"});

@@ -264,11 +264,14 @@ void Falcon::command(const glm::dvec3& force_n) {
     if (exchange_.free()) send_force(force_n);
 }
 
+bool Falcon::obeys() const {
+    return step_ == Step::Ready && exchange_.trusted() && tracker_.legs(now_).has_value();
+}
+
 void Falcon::send_force(const glm::dvec3& force_n) {
     const bool finite = std::isfinite(force_n.x) && std::isfinite(force_n.y) && std::isfinite(force_n.z);
-    const auto legs = tracker_.legs(now_);
-    if (!finite || !legs || !exchange_.trusted()) return send({});
-    const MotorForce force = motors_for(*legs, force_n, settings_.motor_units_per_nm);
+    if (!finite || !obeys()) return send({});
+    const MotorForce force = motors_for(*tracker_.legs(now_), force_n, settings_.motor_units_per_nm);
     if (force.saturated) ++counters_.saturated;
     send(force.motors);
 }

@@ -46,6 +46,8 @@ class Falcon final : public HapticDevice {
     void poll(Instant now) override;
     std::optional<HandleReading> read() override;
     void command(const glm::dvec3& force_n) override;
+    /// Not while replies may be old ones, nor where no pose of the handle has its counts.
+    bool obeys() const override;
     void show(const HandleLight& light) override { light_ = light; }
 
     HapticState state() const override;

@@ -120,6 +120,21 @@ TEST(ForceGate, EachFaultZeroesTheForceInOneTickAndReturnsSoftly) {
     }
 }
 
+TEST(ForceGate, ADeviceThatIsUnsureForAMomentGetsZeroAndTheForceBackQuickly) {
+    const glm::dvec3 force(0.0, 4.0, 0.0);
+    ForceGate gate = opened(force);
+    GateInput unsure = wanted(force);
+    unsure.device_unsure = true;
+    EXPECT_EQ(gate(unsure, kNominalTick), glm::dvec3(0.0)) << "it has no force anyway";
+    EXPECT_EQ(gate.reason(), GateReason::DeviceUnsure);
+    repeat(gate, unsure, 90);
+    EXPECT_NEAR(gate(wanted(force), kNominalTick).y, 4.0 / 150.0, 1e-12);
+    EXPECT_NEAR(repeat(gate, wanted(force), 150).y, 4.0, 1e-9);
+    // For longer, it is as any fault.
+    repeat(gate, unsure, 101);
+    EXPECT_NEAR(gate(wanted(force), kNominalTick).y, 4.0 / 1000.0, 1e-12);
+}
+
 TEST(ForceGate, ANumberThatIsNotFiniteBecomesZeroAndLatchesUntilReset) {
     const glm::dvec3 force(0.0, 8.0, 0.0);
     for (const double bad : {kNan, kInf, -kInf}) {

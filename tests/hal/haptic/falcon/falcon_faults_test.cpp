@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "firmware/haptic/loop.h"
 #include "hal/haptic/falcon/falcon.h"
 #include "tests/hal/haptic/falcon/rig.h"
 
@@ -37,6 +39,74 @@ TEST(FalconFaults, SendsZeroWhenNobodyCommandsIt) {
     rig.run(5, {2.0, 0.0, 0.0});
     for (int i = 0; i < 8; ++i) rig.driver->poll(rig.now += std::chrono::milliseconds(1));
     EXPECT_EQ(rig.board().last_command().motors, Axes{});
+}
+
+/// The loop on a Falcon whose board keeps its torque for a second, with a fluid that pushes with 4 N.
+struct FalconLoop {
+    emulated::EmulatedFalcon* device = nullptr;
+    std::unique_ptr<Falcon> driver;
+    HapticExchange exchange;
+    TickTrace trace{1};
+    std::optional<HapticLoop> loop;
+    FluidSnapshot fluid{.force_n = {4.0, 0.0, 0.0}, .fluid_period = Seconds(0.020)};
+    Instant now{0};
+    double steepest_n = 0.0;  ///< the most that the force of the motors has risen in a tick
+
+    FalconLoop() {
+        auto emulated = std::make_unique<emulated::EmulatedFalcon>(
+            still(), emulated::PlantSettings{.hand = emulated::Hand::OnPath},
+            emulated::BoardSettings{.watchdog = std::chrono::seconds(1)});
+        device = emulated.get();
+        driver = std::make_unique<Falcon>(std::move(emulated), FalconSettings{});
+        loop.emplace(*driver, exchange, trace);
+        exchange.orders.publish(
+            {.enabled = true, .lowest_m = glm::dvec3(-0.05), .highest_m = glm::dvec3(0.05)});
+    }
+    /// What the motors were last asked for [N].
+    double motors_n() const {
+        return glm::length(force_of(device->board().plant().legs(), device->board().last_command().motors,
+                                    kMotorUnitsPerNm));
+    }
+    void run(int ms) {
+        for (int i = 0; i < ms; ++i) {
+            now += kTick;
+            if (now / kTick % 20 == 1) {
+                ++fluid.sequence;
+                fluid.computed_for = exchange.pose.newest().time;
+                exchange.fluid.publish(fluid);
+            }
+            const double before_n = motors_n();
+            loop->tick(now);
+            device->poll(now + std::chrono::microseconds(900));
+            steepest_n = std::max(steepest_n, motors_n() - before_n);
+        }
+    }
+};
+
+TEST(FalconFaults, TheForceComesBackGentlyAfterALostReply) {
+    FalconLoop rig;
+    rig.run(2000);
+    ASSERT_NEAR(rig.motors_n(), 4.0, 0.02);
+    rig.steepest_n = 0.0;
+    rig.device->board().faults.lost_replies = 1;
+    rig.run(15);
+    EXPECT_EQ(rig.device->board().last_command().motors, Axes{}) << "it was zero for a moment";
+    rig.run(300);
+    EXPECT_LT(rig.steepest_n, 0.05);
+    EXPECT_NEAR(rig.motors_n(), 4.0, 0.02) << "and soon it is back";
+}
+
+TEST(FalconFaults, TheForceComesBackGentlyWhenThePoseIsKnownAgain) {
+    FalconLoop rig;
+    rig.run(2000);
+    rig.steepest_n = 0.0;
+    rig.device->board().faults.encoder_error = {2500, -2500, 2500};  // no pose has these
+    rig.run(40);
+    EXPECT_EQ(rig.device->board().last_command().motors, Axes{});
+    rig.device->board().faults.encoder_error = {};
+    rig.run(300);
+    EXPECT_LT(rig.steepest_n, 0.05);
+    EXPECT_NEAR(rig.motors_n(), 4.0, 0.02);
 }
 
 TEST(FalconFaults, ReportsANoisyLine) {
