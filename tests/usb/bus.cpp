@@ -287,7 +287,10 @@ int Bus::ioctl(int fd, unsigned long request, void* argument) {
             refresh();
             return 0;
         case USBDEVFS_CLEAR_HALT:
-            return file.port->device.falcon().stalled ? fail(EPIPE) : 0;
+            return file.port->device.clear_halt(
+                       static_cast<std::uint8_t>(*static_cast<const unsigned*>(argument)))
+                       ? 0
+                       : fail(EPIPE);
         case USBDEVFS_IOCTL: {
             // A driver of the kernel is told to let the interface go, or to take it back.
             const auto* inner = static_cast<const usbdevfs_ioctl*>(argument);

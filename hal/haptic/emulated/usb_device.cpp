@@ -17,6 +17,8 @@ constexpr std::uint8_t kPacket = falcon::kPacketBytes;
 constexpr Instant kControlTime = 125us;  // set-up, data and status stage
 
 // USB 2.0 specification, chapter 9.
+constexpr std::uint8_t kInEndpoint = 0x81, kOutEndpoint = 0x02;
+constexpr std::uint16_t kEndpointHalt = 0;
 constexpr std::uint8_t kStandardIn = 0x80, kEndpointOut = 0x02, kVendorIn = 0xC0;
 constexpr std::uint8_t kClearFeature = 1, kGetStatus = 0, kGetDescriptor = 6, kGetConfiguration = 8,
                        kSetConfiguration = 9;
@@ -41,7 +43,7 @@ std::vector<std::uint8_t> descriptors_of(std::uint16_t product) {
             // interface 0, vendor's own class
             9, 4, 0, 0, 2, 0xFF, 0xFF, 0xFF, 2,
             // bulk endpoints 81 and 02
-            7, 5, 0x81, 2, kPacket, 0, 0, 7, 5, 0x02, 2, kPacket, 0, 0};
+            7, 5, kInEndpoint, 2, kPacket, 0, 0, 7, 5, kOutEndpoint, 2, kPacket, 0, 0};
 }
 
 std::vector<std::uint8_t> string_descriptor(const std::string& text) {
@@ -111,6 +113,7 @@ void UsbDevice::unplug() {
 
 void UsbDevice::plug_in(bool kept_power) {
     plugged_in_ = true;
+    in_halted_ = out_halted_ = false;
     falcon_->plug_in(kept_power);
 }
 
@@ -153,16 +156,25 @@ void UsbDevice::begin_control(Urb& urb, Instant now) {
     by_chip_ = request.type == falcon::kVendorOut;
     if (by_chip_) return falcon_->submit_control(request);
     answered_at_ = now + kControlTime;
-    answer_ = answer(request.type, request.request, request.value);
+    answer_ = answer(request);
 }
 
-std::optional<std::vector<std::uint8_t>> UsbDevice::answer(std::uint8_t type, std::uint8_t request,
-                                                           std::uint16_t value) const {
+bool UsbDevice::clear_halt(std::uint8_t endpoint) {
+    if (falcon_->stalled || (endpoint != kInEndpoint && endpoint != kOutEndpoint)) return false;
+    (endpoint == kInEndpoint ? in_halted_ : out_halted_) = false;
+    return true;
+}
+
+std::optional<std::vector<std::uint8_t>> UsbDevice::answer(const falcon::ControlRequest& asked) {
+    const auto [type, request, value, index] = asked;
     if (type == kVendorIn && request == kGetModemStatus) return std::vector<std::uint8_t>{0x01, 0x60};
     if (type == kVendorIn && request == kGetLatency) return std::vector<std::uint8_t>{falcon_->latency_ms()};
-    if (type == kEndpointOut && request == kClearFeature && !falcon_->stalled)
+    if (type == kEndpointOut && request == kClearFeature && value == kEndpointHalt && clear_halt(low(index)))
         return std::vector<std::uint8_t>{};
-    if (type == 0 && request == kSetConfiguration) return std::vector<std::uint8_t>{};
+    if (type == 0 && request == kSetConfiguration) {
+        in_halted_ = out_halted_ = false;
+        return std::vector<std::uint8_t>{};
+    }
     if (type != kStandardIn) return std::nullopt;
     if (request == kGetStatus) return std::vector<std::uint8_t>{0, 0};
     if (request == kGetConfiguration) return std::vector<std::uint8_t>{1};
@@ -194,17 +206,25 @@ std::optional<std::vector<std::uint8_t>> UsbDevice::answer(std::uint8_t type, st
 void UsbDevice::serve_out() {
     while (!out_.empty()) {
         Urb& urb = out_.front();
+        if (!out_begun_ && out_halted_) {
+            end(out_, Urb::Status::Stalled);
+            continue;
+        }
         if (!std::exchange(out_begun_, true)) falcon_->submit_out(urb.buffer);
         const Transfer done = falcon_->out();
         if (done == Transfer::Pending) return;
         out_begun_ = false;
-        if (done == Transfer::Done) urb.actual = urb.buffer.size();
+        if (done == Transfer::Done)
+            urb.actual = urb.buffer.size();
+        else
+            halt(Urb::Pipe::Out);
         end(out_, done == Transfer::Done ? Urb::Status::Done : Urb::Status::Stalled);
     }
 }
 
 void UsbDevice::serve_in() {
-    while (falcon_->stalled && !in_.empty()) end(in_, Urb::Status::Stalled);
+    if (falcon_->stalled) halt(Urb::Pipe::In);
+    while (in_halted_ && !in_.empty()) end(in_, Urb::Status::Stalled);
     falcon::Packet packet;
     while (!in_.empty() && falcon_->take_in(packet)) {
         Urb& urb = in_.front();

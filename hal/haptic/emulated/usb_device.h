@@ -54,6 +54,12 @@ class UsbDevice {
     void unplug();
     void plug_in(bool kept_power);
 
+    /// From now on this endpoint answers STALL, as it does too once the chip has refused it a transfer, until its halt is cleared
+    /// (USB 2.0, 9.4.5); the other is none the worse.
+    void halt(Urb::Pipe endpoint) { (endpoint == Urb::Pipe::In ? in_halted_ : out_halted_) = true; }
+    /// CLEAR_FEATURE(ENDPOINT_HALT) of the endpoint with this address; false: the device refuses it.
+    bool clear_halt(std::uint8_t endpoint);
+
     bool garbled = false;  ///< a bad cable: every request ends in error at once
     bool hung = false;     ///< the device accepts nothing and says nothing: no request ends
 
@@ -68,14 +74,14 @@ class UsbDevice {
     void serve_out();
     void serve_in();
     /// What the device answers to an IN request; nothing: it stalls.
-    std::optional<std::vector<std::uint8_t>> answer(std::uint8_t type, std::uint8_t request,
-                                                    std::uint16_t value) const;
+    std::optional<std::vector<std::uint8_t>> answer(const falcon::ControlRequest& request);
 
     std::unique_ptr<EmulatedFalcon> falcon_;
     UsbIdentity identity_;
     std::vector<std::uint8_t> descriptors_;
     std::deque<Urb> control_, in_, out_, ended_;
     bool plugged_in_ = true;
+    bool in_halted_ = false, out_halted_ = false;
 
     // The control request at the head of its queue.
     bool control_begun_ = false;

@@ -21,7 +21,8 @@ constexpr Instant kSearchPeriod = 100ms;
 constexpr Instant kControlTime = 1s;  // libnifalcon's time-out for control requests
 constexpr Instant kOutTime = 200ms;   // the chip's buffer is never full at one frame per reply
 constexpr Instant kForever = Instant::max();
-constexpr int kFailedReads = 32;  // in a row: four of each; then the device is opened afresh
+// In a row; then the device is opened afresh, which clears an endpoint that halted. Reads: four of each.
+constexpr int kFailedReads = 32, kFailedWrites = 4;
 
 // USB 2.0 specification, 9.4.3: GET_DESCRIPTOR of a string, in US English.
 constexpr ControlRequest get_string(std::uint8_t index) {
@@ -113,7 +114,7 @@ void UsbLink::search() {
             continue;
         }
         gone_ = false;
-        failures_in_a_row_ = 0;
+        failed_reads_ = failed_writes_ = 0;
         return ask_name(descriptor.iSerialNumber);
     }
     // None left to try; the next search begins with the first again, and knows nothing of this one.
@@ -162,7 +163,7 @@ void UsbLink::take_over() {
 }
 
 void UsbLink::upkeep() {
-    if (gone_ || failures_in_a_row_ >= kFailedReads) {
+    if (gone_ || failed_reads_ >= kFailedReads || failed_writes_ >= kFailedWrites) {
         obstacle_ = gone_ ? Obstacle::NotFound : Obstacle::Unusable;
         return leave();
     }
@@ -226,14 +227,14 @@ void UsbLink::submit_out(std::span<const std::uint8_t> bytes) {
     std::copy_n(bytes.begin(), size, out_.bytes.begin());
     libusb_fill_bulk_transfer(out_.transfer, handle_, kBulkOut, out_.bytes.data(), static_cast<int>(size),
                               on_finished, &out_, 0);
-    submit(out_, kOutTime);
+    if (!submit(out_, kOutTime)) ++failed_writes_;
 }
 
 /// Asks for the next packet. A buffer of whole packets: in a smaller one a long packet would overflow.
 void UsbLink::listen(Slot& slot) {
     libusb_fill_bulk_transfer(slot.transfer, handle_, kBulkIn, slot.bytes.data(), kPacketBytes, on_finished,
                               &slot, 0);
-    if (!submit(slot, kForever)) ++failures_in_a_row_;
+    if (!submit(slot, kForever)) ++failed_reads_;
 }
 
 bool UsbLink::take_in(Packet& packet) {
@@ -261,11 +262,12 @@ void UsbLink::finished(Slot& slot) {
     if (status == LIBUSB_TRANSFER_NO_DEVICE) gone_ = true;
     const bool wrong = slot.state == Transfer::Failed && !gone_ && stage_ != Stage::Leaving;
     if (wrong) ++failures_;
+    if (&slot == &out_) failed_writes_ = wrong ? failed_writes_ + 1 : 0;
     if (!is_read) return;
     if (wrong) {
-        ++failures_in_a_row_;
+        ++failed_reads_;
     } else if (slot.state == Transfer::Done && stage_ == Stage::Open) {
-        failures_in_a_row_ = 0;
+        failed_reads_ = 0;
         slot.deadline = now_;  // from here on: when it came
         filled_[filled_count_++] = &slot;
     }

@@ -100,7 +100,8 @@ class UsbLink final : public Transport {
     std::array<Slot*, kReads> filled_{};  // reads that hold a packet, oldest first
     std::size_t filled_count_ = 0;
     std::size_t under_way_ = 0;  // transfers that libusb has
-    int failures_in_a_row_ = 0;  // of reads
+    int failed_reads_ = 0;       // in a row
+    int failed_writes_ = 0;      // in a row
     std::uint64_t failures_ = 0;
 
     std::array<char, kLongestString / 2> name_{};

@@ -238,6 +238,24 @@ TEST(UsbFaults, StalledPipesAreCountedAndOpenedAfresh) {
     EXPECT_GE(rig.until(HapticState::Ready, 6000), 0);
 }
 
+// The host clears a halt, or it stays; the other endpoint goes on as if nothing were wrong.
+TEST(UsbFaults, AnEndpointThatHaltsIsClearedAndObeyedAgain) {
+    for (const auto endpoint : {emulated::Urb::Pipe::Out, emulated::Urb::Pipe::In}) {
+        UsbRig rig;
+        ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
+        rig.run(10, kPush);
+        rig.port->device.halt(endpoint);
+        rig.run(20, kPush);
+        const auto frames = rig.board().frames();
+        rig.run(3000, kPush);
+        EXPECT_EQ(rig.driver->state(), HapticState::Ready);
+        EXPECT_GT(rig.board().frames() - frames, 2000U);
+        EXPECT_NE(rig.board().last_command().motors, Axes{});
+        EXPECT_EQ(rig.port->opened, 2);
+        expect_true_positions(rig);
+    }
+}
+
 // A cable moved in its socket: transfers fail, and work again.
 TEST(UsbFaults, AMomentOfGarbledTransfersIsOutlived) {
     UsbRig rig;
