@@ -1,6 +1,7 @@
 #include "firmware/haptic/dead_man.h"
 
 #include "firmware/haptic/law.h"
+#include "firmware/haptic/sound.h"
 #include "firmware/haptic/vector.h"
 
 namespace eddy {
@@ -32,6 +33,12 @@ void DeadMan::feel(const HandleReading& reading, Instant now) {
         released_at_ = now;
         ++counters_.released;
     }
+}
+
+bool DeadMan::is_sound() const {
+    using eddy::is_sound;
+    return is_sound(stopped_) && is_sound(felt_) && is_sound(released_) && is_sound(since_) &&
+           is_sound(released_at_);
 }
 
 }  // namespace eddy

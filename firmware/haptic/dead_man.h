@@ -33,6 +33,8 @@ class DeadMan {
     GateReason operator()(const HapticInput& in);
 
     const DeadManCounters& counters() const { return counters_; }
+    /// Its bytes are a state that it can be in (sound.h).
+    bool is_sound() const;
 
   private:
     void feel(const HandleReading& reading, Instant now);

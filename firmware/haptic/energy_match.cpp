@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/haptic/sound.h"
+
 namespace eddy {
 namespace {
 
@@ -52,6 +54,10 @@ EnergyMatch::Shares EnergyMatch::follow(double drag_ns_m, double added_kg, Secon
     shares_.drag += share * (wanted.drag - shares_.drag);
     shares_.added += share * (wanted.added - shares_.added);
     return shares_;
+}
+
+bool EnergyMatch::is_sound() const {
+    return eddy::is_sound(position_m_);
 }
 
 void EnergyMatch::forget() {

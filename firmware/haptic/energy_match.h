@@ -29,6 +29,8 @@ class EnergyMatch {
     Shares follow(double drag_ns_m, double added_kg, Seconds dt);
     /// The next position starts anew; the shares stay.
     void forget();
+    /// Its bytes are a state that it can be in (sound.h).
+    bool is_sound() const;
 
   private:
     std::optional<glm::dvec3> position_m_;  ///< of the last tick

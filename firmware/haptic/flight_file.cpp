@@ -197,6 +197,11 @@ std::string hex_of(const HandState& state) {
 }
 
 void read_state(Words& words, const std::string& version, HandState& state) {
+    // What the law has in mind means something to that very law alone.
+    if (version != EDDY_VERSION)
+        words.refuse(fmt::format("was flown by eddy {}, and this is eddy " EDDY_VERSION
+                                 ", whose law may be another: rerun it with the one that wrote it",
+                                 version));
     std::uint64_t size = 0;
     words(size);
     const std::string_view hex = words.word();
@@ -212,6 +217,7 @@ void read_state(Words& words, const std::string& version, HandState& state) {
         if (error != std::errc{} || end != pair + 2) words.refuse("the state is not in hexadecimal digits");
     }
     std::memcpy(&state, bytes.data(), sizeof(HandState));
+    if (!is_sound(state)) words.refuse("no law was ever in this state");
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ std::string flight_text(const Flight& flight);
 /// What the last line of a flight says of all lines before it.
 std::uint64_t flight_sum(std::string_view lines);
 
-/// `name` for what is said of it. Throws InputError, with the line, if it is no flight, was cut off or changed, or is that of a
-/// program with another law.
+/// `name` for what is said of it. Throws InputError, with the line, if it is no flight, was cut off or changed, is that of another
+/// version of the program, or has a state that rerun() could not go on from.
 Flight read_flight(std::string_view text, const std::string& name);
 
 }  // namespace eddy

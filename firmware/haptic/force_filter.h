@@ -32,6 +32,8 @@ class ForceFilter {
     glm::dvec3 operator()(const glm::dvec3& raw_n, Seconds fluid_period, Seconds dt);
 
     double cutoff_hz(Seconds fluid_period) const;
+    /// Its lowest cut-off is not above its highest.
+    bool is_sound() const { return settings_.lowest_cutoff_hz <= settings_.highest_cutoff_hz; }
     std::uint64_t impulses() const { return impulses_; }  ///< ticks whose raw force was limited
 
   private:

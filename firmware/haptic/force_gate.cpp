@@ -41,6 +41,13 @@ glm::dvec3 ForceGate::operator()(const GateInput& in, Seconds dt) {
     return sent_n_ = glm::dvec3(0.0);
 }
 
+bool ForceGate::is_sound() const {
+    const auto known = [](GateReason reason) {
+        return static_cast<std::size_t>(reason) < kGateSentences.size();
+    };
+    return known(latch_) && known(reason_);
+}
+
 GateReason ForceGate::judge(const GateInput& in) {
     if (in.reset) latch_ = GateReason::Open;
     if (in.device_silent) latch_ = std::max(latch_, GateReason::DeviceSilent);

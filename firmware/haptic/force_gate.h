@@ -99,6 +99,8 @@ class ForceGate {
 
     GateReason reason() const { return reason_; }  ///< of the last tick
     const GateCounters& counters() const { return counters_; }
+    /// Its bytes are a state that it can be in (sound.h).
+    bool is_sound() const;
 
   private:
     GateReason judge(const GateInput& in);

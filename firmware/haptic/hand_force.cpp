@@ -56,6 +56,11 @@ glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const H
     return force_n;
 }
 
+bool HandForce::is_sound() const {
+    return (law_ == ForceLaw::Filter || law_ == ForceLaw::Model) && filter_.is_sound() && hand_.is_sound() &&
+           match_.is_sound() && passivity_.is_sound();
+}
+
 void HandForce::follow(const HandAtTick& hand, double scale, Seconds dt) {
     if (!hand.known) {
         hand_.forget();

@@ -35,6 +35,8 @@ class HandForce {
 
     std::uint64_t impulses() const { return filter_.impulses(); }
     const ForceReport& report() const { return report_; }
+    /// Its bytes are a state that it can be in (sound.h).
+    bool is_sound() const;
 
   private:
     void hear(const FluidSnapshot& fluid, const SlopeBounds& bounds, double energy_at_handle);

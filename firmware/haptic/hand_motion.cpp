@@ -1,6 +1,7 @@
 #include "firmware/haptic/hand_motion.h"
 
 #include "firmware/haptic/low_pass.h"
+#include "firmware/haptic/sound.h"
 #include "firmware/haptic/vector.h"
 
 namespace eddy {
@@ -25,6 +26,10 @@ bool HandMotion::take(const HandleReading& reading) {
 void HandMotion::forget() {
     velocity_m_s_ = glm::dvec3(0.0);
     taken_at_.reset();
+}
+
+bool HandMotion::is_sound() const {
+    return eddy::is_sound(taken_at_) && (!taken_at_ || eddy::is_sound(*taken_at_));
 }
 
 }  // namespace eddy

@@ -29,6 +29,8 @@ class HandMotion {
         return position_m_;
     }  ///< Device frame; the origin before any reading
     const glm::dvec3& velocity_m_s() const { return velocity_m_s_; }  ///< Device frame
+    /// Its bytes are a state that it can be in (sound.h).
+    bool is_sound() const;
 
   private:
     glm::dvec3 position_m_{0.0};

@@ -1,5 +1,7 @@
 #include "firmware/haptic/hand_tick.h"
 
+#include "firmware/haptic/sound.h"
+
 namespace eddy {
 
 HandState hand_state(const HapticLoopSettings& settings) {
@@ -7,6 +9,12 @@ HandState hand_state(const HapticLoopSettings& settings) {
     state.law.force = HandForce(settings.law, settings.filter);
     state.law.gate = ForceGate(settings.gate);
     return state;
+}
+
+bool is_sound(const HandState& state) {
+    const LawState& law = state.law;
+    return state.dead_man.is_sound() && law.hand.is_sound() && law.force.is_sound() && law.gate.is_sound() &&
+           is_sound(law.answered) && is_sound(law.fluid_arrived);
 }
 
 LawOutput hand_tick(HandState& state, HapticInput in, Seconds dt) {

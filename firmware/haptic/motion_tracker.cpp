@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/haptic/sound.h"
 #include "firmware/haptic/vector.h"
 
 namespace eddy {
@@ -40,6 +41,10 @@ void MotionTracker::take(const glm::dvec3& position_m, Instant at) {
     velocity_m_s_ += h / dt * missed;
     acceleration_m_s2_ += k / (dt * dt) * missed;
     at_ = at;
+}
+
+bool MotionTracker::is_sound() const {
+    return eddy::is_sound(at_) && (!at_ || eddy::is_sound(*at_));
 }
 
 void MotionTracker::forget() {

@@ -27,6 +27,8 @@ class MotionTracker {
 
     const glm::dvec3& velocity_m_s() const { return velocity_m_s_; }
     const glm::dvec3& acceleration_m_s2() const { return acceleration_m_s2_; }
+    /// Its bytes are a state that it can be in (sound.h).
+    bool is_sound() const;
 
   private:
     std::optional<Instant> at_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/haptic/sound.h"
 #include "firmware/haptic/vector.h"
 
 namespace eddy {
@@ -56,6 +57,10 @@ void Passivity::given(const glm::dvec3& force_n, const glm::dvec3& damping_n) {
     force_n_ = sound ? force_n : glm::dvec3(0.0);
     damping_n_ = sound ? damping_n : glm::dvec3(0.0);
     if (damping_n_ != glm::dvec3(0.0)) ++damped_;
+}
+
+bool Passivity::is_sound() const {
+    return next_ < kKept && eddy::is_sound(running_) && eddy::is_sound(answered_);
 }
 
 void Passivity::begin_anew() {

@@ -54,6 +54,8 @@ class Passivity {
     double energy_j() const { return balance_j_ + paid_since_j(); }  ///< below 0: a debt
     double least_j() const { return least_j_; }                      ///< since start
     std::uint64_t damped() const { return damped_; }                 ///< ticks
+    /// Its bytes are a state that it can be in (sound.h).
+    bool is_sound() const;
 
   private:
     /// What the hand has done, and what of it against the damping, up to a tick.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "firmware/haptic/flight_file.h"
+#include "firmware/haptic/flight_rerun.h"
 #include "firmware/input_error.h"
 #include "hal/haptic/falcon/exchange.h"
 #include "hal/haptic/falcon/firmware_image.h"
@@ -148,7 +149,12 @@ void fuzz_packets(std::span<const std::uint8_t> bytes) {
 
 void fuzz_flight(std::span<const std::uint8_t> input) {
     std::string text(input.begin(), input.end());
-    // Chance finds neither 14000 bytes of a state nor a sum.
+    // Chance finds neither this version, nor 14000 bytes of a state, nor a sum.
+    constexpr std::string_view kVersion = "\nversion ";
+    if (const std::size_t at = text.find(kVersion); at != std::string::npos) {
+        const std::size_t begin = at + kVersion.size();
+        text.replace(begin, std::min(text.find('\n', begin), text.size()) - begin, EDDY_VERSION);
+    }
     constexpr std::string_view kState = "\nstate!\n";
     if (const std::size_t at = text.find(kState); at != std::string::npos) {
         static const std::string state = [] {
@@ -165,7 +171,10 @@ void fuzz_flight(std::span<const std::uint8_t> input) {
                    fmt::format(" {:016x}\n", flight_sum(std::string_view(text).substr(0, end + 1)));
     }
     try {
-        const std::string again = flight_text(read_flight(text, "f"));
+        const Flight flight = read_flight(text, "f");
+        for (const LawOutput& out : rerun(flight).outputs)
+            require(!to_word(out.reason).empty(), "a reason has a word");
+        const std::string again = flight_text(flight);
         require(flight_text(read_flight(again, "f")) == again, "a flight writes back as it was read");
     } catch (const InputError& e) {
         const std::string what = e.what();

@@ -14,7 +14,7 @@ void fuzz_firmware(std::span<const std::uint8_t> input);
 /// Packets of any size and content at any time: the exchange keeps to one command at a time and never waits for ever.
 void fuzz_packets(std::span<const std::uint8_t> input);
 
-/// A flight recording: taken, and then written as it was read, or refused in one line. A line "state!" stands for a state, and the sum is made right.
+/// A flight recording: taken, run again, and then written as it was read, or refused in one line. A line "state!" stands for a state, and the sum is made right.
 void fuzz_flight(std::span<const std::uint8_t> input);
 
 }  // namespace eddy

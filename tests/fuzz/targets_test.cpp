@@ -90,7 +90,8 @@ TEST(Fuzz, PacketsOfAnyKindDoNotConfuseTheExchange) {
 
 TEST(Fuzz, FlightsAreReadOrRefusedInOneLine) {
     Flight flight;
-    flight.version = flight.written = "x";
+    flight.version = EDDY_VERSION;
+    flight.written = "x";
     flight.ticks.resize(3);
     flight.ticks[1].in.reading = HandleReading{.position_m = {0.01, -0.02, 1e-300}, .buttons = 5};
     flight.ticks[2].in.fluid.force_n = {1.0 / 3.0, -0.0, 1e300};

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <bit>
 #include <limits>
 
@@ -37,7 +38,7 @@ Flight unplugged() {
     rig.run(600);
     std::optional<Flight> flight = rig.flights.take();
     if (!flight) throw std::runtime_error("no flight");
-    flight->version = "0.1.0";
+    flight->version = EDDY_VERSION;
     flight->written = "2026-11-22T20:00:00Z";
     return *flight;
 }
@@ -68,7 +69,7 @@ TEST(Flight, ThatWasWrittenAndReadRunsAgainBitForBitToo) {
     const Flight flight = unplugged();
     const std::string text = flight_text(flight);
     const Flight read = read_flight(text, "a");
-    EXPECT_EQ(read.version, "0.1.0");
+    EXPECT_EQ(read.version, EDDY_VERSION);
     EXPECT_EQ(read.written, "2026-11-22T20:00:00Z");
     EXPECT_EQ(read.cause, flight.cause);
     EXPECT_EQ(read.at, flight.at);
@@ -100,7 +101,8 @@ TEST(Flight, KeepsNumbersThatAreNone) {
     std::optional<Flight> flight = rig.flights.take();
     ASSERT_TRUE(flight);
     EXPECT_EQ(flight->cause, GateReason::NotFinite);
-    flight->version = flight->written = "x";
+    flight->version = EDDY_VERSION;
+    flight->written = "x";
     const Flight read = read_flight(flight_text(*flight), "a");
     const glm::dvec3 force_n = read.ticks.back().in.fluid.force_n;
     EXPECT_TRUE(std::isnan(force_n.x));
@@ -231,7 +233,7 @@ TEST(FlightFile, SaysWhatIsWrongWithAFile) {
     rig.order();
     rig.run(10);
     Flight flight = *rig.flights.take_unfinished();
-    flight.version = "0.1.0";
+    flight.version = EDDY_VERSION;
     flight.written = "today";
     const std::string good = flight_text(flight);
     EXPECT_EQ(refusal(good), "taken");
@@ -243,6 +245,44 @@ TEST(FlightFile, SaysWhatIsWrongWithAFile) {
     changed[changed.find("tick ") + 5] ^= 1;
     EXPECT_THAT(refusal(changed), HasSubstr("was changed since it was written, or damaged"));
     EXPECT_EQ(refusal(changed).find('\n'), std::string::npos) << "one line";
+    flight.version = "0.0.9";
+    EXPECT_THAT(refusal(flight_text(flight)),
+                HasSubstr("was flown by eddy 0.0.9, and this is eddy " EDDY_VERSION));
+}
+
+/// A flight whose state has this byte in every place in turn; the last line is right.
+TEST(FlightFile, RefusesAStateThatNoLawWasEverIn) {
+    Flight flight;
+    flight.version = EDDY_VERSION;
+    flight.written = "today";
+    flight.ticks.resize(20);
+    for (std::size_t i = 0; i < flight.ticks.size(); ++i) {
+        FlightTick& tick = flight.ticks[i];
+        tick.step = kTick;
+        tick.in = {.now = static_cast<int>(i + 1) * kTick,
+                   .reading = HandleReading{.taken_at = static_cast<int>(i + 1) * kTick},
+                   .device = HapticState::Ready};
+    }
+    const std::string good = flight_text(flight);
+    const std::size_t line = good.find("\nstate ");
+    const std::size_t hex = good.find(' ', line + 7) + 1, end = good.find('\n', hex);
+    const std::size_t ticks = good.rfind("\nend ") + 1;
+    ASSERT_EQ(end - hex, 2 * sizeof(HandState));
+    int refused = 0;
+    for (std::size_t at = hex; at < end; at += 2) {
+        std::string text = good.substr(0, ticks);
+        text[at] = text[at + 1] = '7';
+        text += fmt::format("end {} {:016x}\n", flight.ticks.size(), flight_sum(text));
+        if (refusal(text) != "taken") {
+            EXPECT_THAT(refusal(text), HasSubstr("no law was ever in this state"));
+            ++refused;
+            continue;
+        }
+        // Taken: then it can be run again, and what comes of it has a name.
+        for (const LawOutput& out : rerun(read_flight(text, "f")).outputs)
+            ASSERT_LT(static_cast<std::size_t>(out.reason), kGateSentences.size()) << at;
+    }
+    EXPECT_GT(refused, 30);
 }
 
 }  // namespace
