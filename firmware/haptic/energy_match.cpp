@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/haptic/exponential.h"
 #include "firmware/haptic/sound.h"
 
 namespace eddy {
@@ -26,7 +27,7 @@ void EnergyMatch::moved_to(const glm::dvec3& position_m, const glm::dvec3& veloc
     }
     const glm::dvec3 way_m = position_m - *position_m_;
     position_m_ = position_m;
-    const double kept = std::exp(-std::max(0.0, dt.count()) / kMemory.count());
+    const double kept = left_of(std::max(0.0, dt.count()) / kMemory.count());
     tracked_drag_ = kept * tracked_drag_ + glm::dot(velocity_m_s, way_m);
     tracked_added_ = kept * tracked_added_ + glm::dot(acceleration_m_s2, way_m);
     true_drag_ *= kept;
@@ -50,7 +51,7 @@ EnergyMatch::Shares EnergyMatch::follow(double drag_ns_m, double added_kg, Secon
     Shares wanted;
     if (of_drag > 0.0) wanted.drag = std::clamp((may_cost - of_mass) / of_drag, 0.0, 1.0);
     if (of_mass > may_cost) wanted.added = may_cost / of_mass;
-    const double share = dt.count() > 0.0 ? -std::expm1(-dt / kFollow) : 0.0;
+    const double share = dt.count() > 0.0 ? gone_of(dt / kFollow) : 0.0;
     shares_.drag += share * (wanted.drag - shares_.drag);
     shares_.added += share * (wanted.added - shares_.added);
     return shares_;

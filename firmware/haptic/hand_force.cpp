@@ -11,9 +11,6 @@ namespace {
 
 /// Of the bandwidth for what the model does not explain, given up where it explains all.
 constexpr double kLaterShare = 0.6;
-/// How much must be explained for the rest to be rounded off twice: the time of the second low-pass is this power of it.
-constexpr double kTwice = 4.0;
-
 }  // namespace
 
 glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const HapticOrders& orders,
@@ -40,8 +37,10 @@ glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const H
     const Seconds smoothed = fluid.fluid_period / (1.0 - kLaterShare * model_.explained());
     glm::dvec3 rest_n = filter_(gain * unexplained_n, smoothed, dt);
     if (is_finite(rest_n)) {
-        // Where it explains nearly all, the rest is the grid that the body crosses, a little at each answer: rounded off twice.
-        const double again_hz = filter_.cutoff_hz(smoothed) / std::pow(model_.explained(), kTwice);
+        // Where it explains nearly all, the rest is the grid that the body crosses, a little at each answer: rounded off twice. The time
+        // of the second low-pass is the fourth power of how much that is.
+        const double twice = model_.explained() * model_.explained();
+        const double again_hz = filter_.cutoff_hz(smoothed) / (twice * twice);
         rest_n = rest_n_ = glm::mix(rest_n_, rest_n, low_pass_weight(again_hz, dt));
     }
     const glm::dvec3 force_n = rest_n + gain * explained_n + damping_n;

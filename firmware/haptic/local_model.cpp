@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/haptic/exponential.h"
 #include "firmware/haptic/vector.h"
 
 namespace eddy {
@@ -41,7 +42,7 @@ struct Fit {
 void LocalModel::learn(const FluidAnswer& answer, Seconds period, const SlopeBounds& bounds) {
     if (!is_finite(answer.force_n) || !is_finite(answer.velocity_m_s) || !is_finite(answer.acceleration_m_s2))
         return;
-    const double kept = std::exp(-std::max(0.0, period.count()) / kMemory.count());
+    const double kept = left_of(std::max(0.0, period.count()) / kMemory.count());
     Sums& s = sums_;
     const glm::dvec3 &f = answer.force_n, &v = answer.velocity_m_s, &a = answer.acceleration_m_s2;
     s.count = kept * s.count + 1.0;
@@ -84,7 +85,7 @@ void LocalModel::solve(const SlopeBounds& bounds) {
 }
 
 void LocalModel::follow(Seconds dt, const SlopeBounds& bounds) {
-    const double share = dt.count() > 0.0 ? -std::expm1(-dt / kFollow) : 0.0;
+    const double share = dt.count() > 0.0 ? gone_of(dt / kFollow) : 0.0;
     drag_ns_m_ = std::min(drag_ns_m_ + share * (found_drag_ns_m_ - drag_ns_m_), bounds.drag_ns_m);
     added_kg_ = std::min(added_kg_ + share * (found_added_kg_ - added_kg_), bounds.added_kg);
 }

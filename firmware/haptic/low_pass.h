@@ -1,7 +1,7 @@
 #pragma once
-#include <cmath>
 #include <numbers>
 
+#include "firmware/haptic/exponential.h"
 #include "hal/clock.h"
 
 namespace eddy {
@@ -10,7 +10,7 @@ namespace eddy {
 /// exactly for an x held over dt. Exact for any dt, so late and missed ticks change nothing but the sampling:
 /// two half steps are one step.
 inline double low_pass_weight(double cutoff_hz, Seconds dt) {
-    return dt.count() > 0.0 ? -std::expm1(-2.0 * std::numbers::pi * cutoff_hz * dt.count()) : 0.0;
+    return dt.count() > 0.0 ? gone_of(2.0 * std::numbers::pi * cutoff_hz * dt.count()) : 0.0;
 }
 
 }  // namespace eddy

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/haptic/exponential.h"
 #include "firmware/haptic/sound.h"
 #include "firmware/haptic/vector.h"
 
@@ -34,7 +35,7 @@ void MotionTracker::take(const glm::dvec3& position_m, Instant at) {
     position_m_ += dt * velocity_m_s_ + 0.5 * dt * dt * acceleration_m_s2_;
     velocity_m_s_ += dt * acceleration_m_s2_;
     const glm::dvec3 missed = position_m - position_m_;
-    const double kept = std::exp(-poles_1_s(glm::length(missed)) * dt), given_up = 1.0 - kept;
+    const double kept = left_of(poles_1_s(glm::length(missed)) * dt), given_up = 1.0 - kept;
     const double g = 1.0 - kept * kept * kept, h = 1.5 * given_up * given_up * (1.0 + kept),
                  k = given_up * given_up * given_up;
     position_m_ += g * missed;

@@ -1,8 +1,14 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
-#include <fmt/format.h>
 #include <bit>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "firmware/haptic/flight_file.h"
@@ -77,6 +83,39 @@ TEST(Flight, ThatWasWrittenAndReadRunsAgainBitForBitToo) {
     EXPECT_EQ(rerun(read).differing, 0U);
     EXPECT_EQ(flight_text(read), text);
     EXPECT_LT(text.size(), 3'000'000U);
+}
+
+/// The child of the next test finds its flight in the file that this variable names.
+constexpr const char* kFlightToRun = "EDDY_FLIGHT_TO_RUN";
+
+TEST(Flight, InAFileRunsAgainBitForBit) {
+    const std::string own = testing::TempDir() + "own.flight";
+    const char* given = std::getenv(kFlightToRun);
+    if (!given) std::ofstream(own, std::ios::binary) << flight_text(unplugged());
+    std::ifstream in(given ? given : own.c_str(), std::ios::binary);
+    const Rerun again = rerun(read_flight(std::string{std::istreambuf_iterator<char>(in), {}}, "f"));
+    EXPECT_EQ(again.differing, 0U) << "of " << again.outputs.size() << ", by " << again.most_n
+                                   << " N at most";
+    std::filesystem::remove(own);
+}
+
+// The C library takes other functions on other processors, and they round otherwise: here those of one without fused products.
+TEST(Flight, RunsAgainBitForBitOnAnOlderProcessor) {
+    const std::string file = testing::TempDir() + "older_processor.flight";
+    std::ofstream(file, std::ios::binary) << flight_text(unplugged());
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-FMA_Usable,-FMA4_Usable,-AVX2_Usable",
+               1);
+        setenv(kFlightToRun, file.c_str(), 1);
+        execl("/proc/self/exe", "tests", "--gtest_filter=Flight.InAFileRunsAgainBitForBit", nullptr);
+        _exit(127);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0) << "the child says what differs";
+    std::filesystem::remove(file);
 }
 
 TEST(Flight, SaysTheFirstTickInWhichALawOfAnotherKindDiffers) {
