@@ -11,6 +11,7 @@ namespace {
 
 /// Of the bandwidth for what the model does not explain, given up where it explains all.
 constexpr double kLaterShare = 0.6;
+
 }  // namespace
 
 glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const HapticOrders& orders,

@@ -179,7 +179,7 @@ TEST(UsbFaults, RepliesMayTakeFiveMilliseconds) {
 
 // Replies have no number: if old ones were taken for new, the hand would be pushed by where it was 50 ms ago.
 TEST(UsbFaults, NobodyIsPushedWhileRepliesTakeFiftyMilliseconds) {
-    UsbRig rig;
+    UsbRig rig(left_to_the_driver());
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     rig.run(10, kPush);
     rig.board().faults.slow_reply = 50ms;

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using namespace falcon;
 
 TEST(FalconFaults, SendsZeroWithin20msOfALostReply) {
-    Rig rig;
+    Rig rig(left_to_the_driver());
     ASSERT_GE(rig.until(HapticState::Ready, 1000), 0);
     const glm::dvec3 force(2.0, 0.0, 0.0);
     rig.run(10, force);
@@ -54,8 +54,7 @@ struct FalconLoop {
 
     FalconLoop() {
         auto emulated = std::make_unique<emulated::EmulatedFalcon>(
-            still(), emulated::PlantSettings{.hand = emulated::Hand::OnPath},
-            emulated::BoardSettings{.watchdog = std::chrono::seconds(1)});
+            still(), emulated::PlantSettings{.hand = emulated::Hand::OnPath}, left_to_the_driver());
         device = emulated.get();
         driver = std::make_unique<Falcon>(std::move(emulated), FalconSettings{});
         loop.emplace(*driver, exchange, trace);

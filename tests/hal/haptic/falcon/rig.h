@@ -78,6 +78,10 @@ struct Rig : DriverRig {
 inline emulated::BoardSettings cold() {
     return {.start = emulated::BoardState::Cold};
 }
+/// Its own watchdog takes no torque away, for so long: what comes to an end sooner, the driver ended.
+inline emulated::BoardSettings left_to_the_driver() {
+    return {.watchdog = std::chrono::seconds(1)};
+}
 inline emulated::BoardSettings unhomed() {
     return {.start = emulated::BoardState::RunUnhomed};
 }
