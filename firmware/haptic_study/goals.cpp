@@ -123,7 +123,7 @@ Goal debt(const Study& study) {
 
 Goal pull(const Study& study) {
     double worst = 0.0;
-    for (const PullRow& row : study.pulls) worst = std::max(worst, std::abs(row.share - 1.0));
+    for (const PullRow& row : study.pulls) worst = std::max(worst, row.error);
     return {"the mean pull of a jet comes through within 2 %",
             fmt::format("{:.2f} % off at the worst", 100.0 * worst), worst <= kPull};
 }

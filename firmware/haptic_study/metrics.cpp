@@ -83,9 +83,14 @@ std::optional<double> half_rise_s(Forces forces) {
     if (forces.size() <= kSettled) return std::nullopt;
     double settled = 0.0;
     for (const glm::dvec3& force : forces.last(kSettled)) settled += force.x / static_cast<double>(kSettled);
+    const double began = forces.front().x;
     for (std::size_t i = 0; i < forces.size(); ++i)
-        if (forces[i].x / settled >= 0.5) return kTickS * static_cast<double>(i);
+        if ((forces[i].x - began) / (settled - began) >= 0.5) return kTickS * static_cast<double>(i);
     return std::nullopt;
+}
+
+double pull_error(const glm::dvec3& felt_n, const glm::dvec3& given_n) {
+    return glm::length(felt_n - given_n) / glm::length(given_n);
 }
 
 double spent_j(std::span<const Felt> ticks) {

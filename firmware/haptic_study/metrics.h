@@ -14,8 +14,11 @@ double rms(Forces forces);
 double trembling(Forces forces);
 /// How far the first is behind the second, as the 1 Hz part of both has it, for a hand on a circle in x and y [s].
 double lag_s(Forces forces, Forces reference);
-/// From a start to half of what the force along x is over the last 100 ms [s]; nothing if it never gets there.
+/// From a start to half of the way from the force along x then to that over the last 100 ms [s]; nothing if it never gets there.
 std::optional<double> half_rise_s(Forces forces);
+
+/// How far the felt force is from the one that was given, whatever its direction, as a share of the latter.
+double pull_error(const glm::dvec3& felt_n, const glm::dvec3& given_n);
 
 /// What the hand spent on `ticks` and got back, net [J].
 double spent_j(std::span<const Felt> ticks);

@@ -75,9 +75,9 @@ std::string fluid_table(const Study& study) {
 }
 
 std::string pull_table(const Study& study) {
-    std::string text = "| fluid | answers/s | felt, of what the fluid gives |\n|---|---|---|\n";
+    std::string text = "| fluid | answers/s | felt is off by, of what the fluid gives |\n|---|---|---|\n";
     for (const PullRow& row : study.pulls)
-        text += fmt::format("| {} | {:.0f} | {:.2f} % |\n", row.fluid, row.rate_hz, 100.0 * row.share);
+        text += fmt::format("| {} | {:.0f} | {:.2f} % |\n", row.fluid, row.rate_hz, 100.0 * row.error);
     return text;
 }
 
@@ -127,7 +127,7 @@ Scenes are computed on {} cells along the longest side. {}
 The hand goes round a circle of 20 mm once a second. The reference is the same fluid with a step in every millisecond and the hand
 where it really is. Roughness: what is felt less the reference, 10 to 400 Hz, as a share of the reference; trembling: of what is felt alone.
 A scene's own fluid trembles as the body crosses its grid, at 1 kHz as well, and resists otherwise when its steps are longer; both count as
-roughness and error here though no law can change them. After the circle the hand rests and sets off at 0.1 m/s: half of the force after so long.
+roughness and error here though no law can change them. After the circle the hand rests and sets off at 0.1 m/s: half of what that changes the force by after so long.
 In a jet the stream's own force is in the way: when the hand's part of it comes is not to be read there from the last time.
 At 1000 answers a second the encoders are what is rough: a count in a millisecond is an acceleration.
 {}{}
@@ -203,7 +203,7 @@ std::string csv_of(const Study& study) {
         line(r.fluid, trial, r.law, r.rate_hz, "carried_force_n", r.carried.force_n);
         line(r.fluid, trial, r.law, r.rate_hz, "carried_position_m", r.carried.position_m);
     }
-    for (const PullRow& r : study.pulls) line(r.fluid, "pull", ForceLaw::Model, r.rate_hz, "share", r.share);
+    for (const PullRow& r : study.pulls) line(r.fluid, "pull", ForceLaw::Model, r.rate_hz, "error", r.error);
     return text;
 }
 

@@ -53,7 +53,7 @@ void study_known(Study& study) {
         KnownFluid::Settings jet = kKnownFluid;
         jet.push_n = {0.8, 0.0, 0.0};
         KnownFluid fluid(jet);
-        study.pulls.push_back({kKnown, rate_hz, pull_share(fluid, rate_hz)});
+        study.pulls.push_back({kKnown, rate_hz, pull_error(fluid, rate_hz)});
     }
 }
 
@@ -119,7 +119,7 @@ class SceneStudy {
     }
     void pulls() {
         for (const double rate_hz : kRatesHz) {
-            study_.pulls.push_back({name_, rate_hz, pull_share(*at(rate_hz), rate_hz)});
+            study_.pulls.push_back({name_, rate_hz, pull_error(*at(rate_hz), rate_hz)});
             done_(4.0 * rate_hz, "the pull of a jet");
         }
     }

@@ -49,7 +49,7 @@ std::string held_how(const SwingRow& row);
 struct PullRow {
     std::string fluid;
     double rate_hz;
-    double share;
+    double error;
 };
 /// A scene's fluid, as it was found.
 struct FluidRow {

@@ -147,7 +147,7 @@ Swing carried_figures(std::span<const Felt> fixed, Holder holder) {
     return swing_figures(moved);
 }
 
-double pull_share(StudyFluid& fluid, double rate_hz) {
+double pull_error(StudyFluid& fluid, double rate_hz) {
     constexpr std::size_t kFrom = 3000, kTo = 4000;  // [ms]
     Handle handle(Holder::Arm, [](Seconds) { return glm::dvec3(0.0); });
     const Play tried =
@@ -162,7 +162,7 @@ double pull_share(StudyFluid& fluid, double rate_hz) {
         given_n += tried.orders.gain * answer.force_n;
         ++count;
     }
-    return count > 0.0 ? glm::length(felt_n) / glm::length(given_n / count) : 0.0;
+    return count > 0.0 ? pull_error(felt_n, given_n / count) : 1.0;
 }
 
 }  // namespace eddy::haptic_study

@@ -17,7 +17,7 @@ struct CircleFigures {
     double reference_trembling = 0.0;     ///< and of the reference alone
     double rmse = 0.0;                    ///< of what is felt less the reference, as a share of the reference
     double lag_s = 0.0;                   ///< of the 1 Hz part behind that of the reference
-    std::optional<double> half_rise_s{};  ///< from setting off to half of the force
+    std::optional<double> half_rise_s{};  ///< from setting off to half of what that changes
     double force_n = 0.0;                 ///< rms of the reference, on the hand
     double damped = 0.0;                  ///< share of the ticks in which energy was taken out
     ForceReport report{};
@@ -42,8 +42,9 @@ struct StirFigures {
 };
 StirFigures stir_figures(StudyFluid& fluid, ForceLaw law, double rate_hz, double stir_hz);
 
-/// The mean of what an arm feels over a second in the middle of the tank, as a share of what the fluid gives after gain.
-double pull_share(StudyFluid& fluid, double rate_hz);
+/// How far the mean of what an arm feels over a second in the middle of the tank is from what the fluid gives after gain, as a share
+/// of that.
+double pull_error(StudyFluid& fluid, double rate_hz);
 
 /// An arm that lets go does so out of a circle of so many turns a second: at 0.1 to 0.3 m/s.
 inline constexpr double kLetGoHz[] = {1.0, 2.0, 3.0, 5.0};
