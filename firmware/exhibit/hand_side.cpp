@@ -1,10 +1,8 @@
 #include "firmware/exhibit/hand_side.h"
 
-#include <fmt/format.h>
 #include <pthread.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace eddy {
 namespace {
@@ -25,11 +23,11 @@ HandSide::HandSide(std::unique_ptr<HapticDevice> device, std::string name, const
 
 void HandSide::start(Clock& clock) {
     if (!loop_) return;
-    ran_ = true;
     stop_ = false;
     thread_ = std::thread([this, &clock] {
         pthread_setname_np(pthread_self(), "eddy:hand");
-        grant_ = grant_realtime(MemoryLock::No);
+        grant_ = grant_realtime(loop_->memory());
+        granted_.store(true, std::memory_order_release);
         loop_->run(clock, stop_);
     });
 }
@@ -44,12 +42,9 @@ void HandSide::end() {
     if (device_) name_ = device_->describe();
 }
 
-std::optional<std::string> HandSide::complaint() const {
-    if (!ran_ || grant_.fifo) return std::nullopt;
-    return fmt::format(
-        "the haptic thread had no real-time priority ({}): ticks were late when the machine was busy; a "
-        "service gets it by LimitRTPRIO={} in its unit",
-        std::strerror(grant_.fifo_error), kHapticPriority);
+std::optional<std::string> HandSide::grant_news() {
+    if (!granted_.exchange(false, std::memory_order_acquire)) return std::nullopt;
+    return sentence_of(grant_);
 }
 
 void HandSide::follow(const std::function<void(std::span<const TickRecord>)>& each) {

@@ -40,8 +40,8 @@ class HandSide {
     void tick(Instant now);
     /// Ends the thread; waits for it.
     void end();
-    /// When the loop has ended: what the system did not grant, for the log.
-    std::optional<std::string> complaint() const;
+    /// Once, when the loop's thread has begun: what the system granted it, for the log.
+    std::optional<std::string> grant_news();
 
     /// Takes in what the loop did since the last call; each part of its ticks, in order, goes to `each`.
     void follow(const std::function<void(std::span<const TickRecord>)>& each = {});
@@ -72,7 +72,7 @@ class HandSide {
     std::optional<HapticLoop> loop_;
     std::optional<FlightKeeper> flight_keeper_;
     RealtimeGrant grant_;
-    bool ran_ = false;
+    std::atomic<bool> granted_{false};  ///< the thread has written what is above
     std::atomic<bool> stop_{false};
     std::thread thread_;
     LoopReport report_;

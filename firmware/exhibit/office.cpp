@@ -66,6 +66,7 @@ void Office::count(double Usage::*what, double much) {
 void Office::tell_news(Front& front, HandSide& hand) {
     if (front.plays())
         for (const std::string& line : front.act().news()) say(Event::QualityChanged, line);
+    if (const auto news = hand.grant_news()) say(Event::Note, *news);
     if (const auto news = hand.flight_news()) say(Event::FlightKept, *news);
     if (const auto news = front.news()) say(event_of(news->state), news->text);
     if (front.gpu_resets() > gpu_resets_) {

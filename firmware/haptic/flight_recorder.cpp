@@ -41,6 +41,14 @@ bool take_off(std::string_view& bytes, void* to, std::size_t size) {
 
 FlightRecorder::FlightRecorder(const HapticLoopSettings& settings) : settings_(settings) {}
 
+MemoryPieces FlightRecorder::memory() const {
+    MemoryPieces pieces{std::as_bytes(std::span(this, 1))};
+    for (const Store& store : stores_)
+        for (const Segment& segment : store.segments)
+            pieces.push_back(std::as_bytes(std::span(segment.ticks)));
+    return pieces;
+}
+
 void FlightRecorder::begin_tick(const HandState& state) {
     Store& store = stores_[writing_];
     if (store.segments[store.newest].count == kSegmentTicks) {

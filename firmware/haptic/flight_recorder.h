@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/haptic/flight.h"
+#include "firmware/haptic/realtime.h"
 
 namespace eddy {
 
@@ -24,6 +25,9 @@ class FlightRecorder {
 
     /// Allocates here and never again.
     explicit FlightRecorder(const HapticLoopSettings& settings);
+
+    /// What the loop writes.
+    MemoryPieces memory() const;
 
     // Loop's thread only.
     void begin_tick(const HandState& state);

@@ -22,6 +22,15 @@ HapticLoop::HapticLoop(HapticDevice& device, HapticExchange& exchange, TickTrace
       stop_input_(stop_input),
       state_(hand_state(settings)) {}
 
+MemoryPieces HapticLoop::memory() const {
+    MemoryPieces pieces{std::as_bytes(std::span(this, 1)), std::as_bytes(std::span(&exchange_, 1)),
+                        trace_.memory()};
+    if (!flights_) return pieces;
+    const MemoryPieces more = flights_->memory();
+    pieces.insert(pieces.end(), more.begin(), more.end());
+    return pieces;
+}
+
 void HapticLoop::tick(Instant now) {
     const Instant step = report_.ticks > 0 ? now - last_ : kTick;
     last_ = now;

@@ -29,6 +29,9 @@ class HapticLoop {
                const HapticLoopSettings& settings = {}, FlightRecorder* flights = nullptr,
                const StopInput* stop_input = nullptr);
 
+    /// What a tick reads and writes, but for the device's own.
+    MemoryPieces memory() const;
+
     /// One tick. `now` never goes back. For callers that keep time themselves (replay, tests).
     void tick(Instant now);
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -36,6 +37,9 @@ class TickTrace {
     void push(const TickRecord& tick);
     /// Reader's thread only: moves the oldest ticks into `out`, as many as fit; returns how many.
     std::size_t drain(std::span<TickRecord> out);
+
+    /// What push() writes.
+    std::span<const std::byte> memory() const { return std::as_bytes(std::span(ring_)); }
 
     std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }  ///< any thread
 

@@ -572,7 +572,6 @@ int ExhibitRun::finish() {
     if (front_ && front_->plays()) {
         hand_->finish_flights();
         report(now, true);
-        if (const auto complaint = hand_->complaint()) office_.say(Event::Note, *complaint);
         const double show_s = Seconds(now - show_began_).count();
         print_summary({"real", show_s, Seconds(now - hand_began_).count(), show_s}, front_->act(),
                       front_->graphics(), *hand_, recording_.recorder());

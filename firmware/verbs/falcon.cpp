@@ -37,7 +37,7 @@ bool enter_pressed() {
 /// A thousand times a second, says so when what the device is doing changes, and asks `tick` whether to go on. Then
 /// some zeros, as the haptic loop sends them.
 void drive(HapticDevice& device, const std::function<bool(Instant)>& tick) {
-    grant_realtime(MemoryLock::No);
+    grant_realtime({});
     RealClock clock;
     HapticState state = HapticState::Fault;
     std::string said;

@@ -37,7 +37,7 @@ Measured measure(HapticDevice& device, Seconds duration) {
     RealClock clock;
     std::atomic<bool> stop{false};
     std::thread thread([&] {
-        measured.grant = grant_realtime(MemoryLock::Yes);
+        measured.grant = grant_realtime(loop.memory());
         loop.run(clock, stop);
     });
     std::vector<TickRecord> records(4096);
@@ -76,21 +76,23 @@ void print_grant(const RealtimeGrant& grant) {
                    : "not real time: a package such as linux-image-rt-amd64 makes late ticks rarer");
     fmt::print("priority    {}\n", grant.fifo ? fmt::format("SCHED_FIFO {}", kHapticPriority)
                                               : fmt::format("refused: {}", std::strerror(grant.fifo_error)));
-    fmt::print("memory      {}\n", grant.memory_locked
-                                       ? std::string("locked")
-                                       : fmt::format("not locked: {}", std::strerror(grant.memory_error)));
+    fmt::print("memory      {}\n",
+               grant.memory_error == 0
+                   ? fmt::format("{:.1f} MB locked", 1e-6 * static_cast<double>(grant.locked_bytes))
+                   : fmt::format("not locked: {}", std::strerror(grant.memory_error)));
 }
 
 /// What to write where, so that the system grants what it refused.
 void print_cure(const RealtimeGrant& grant) {
-    if (grant.fifo && grant.memory_locked) return;
+    const bool locked = grant.memory_error == 0;
+    if (grant.fifo && locked) return;
     fmt::print("cure        for a service, in its [Service] section:\n");
     if (!grant.fifo) fmt::print("                LimitRTPRIO={}\n", kHapticPriority);
-    if (!grant.memory_locked) fmt::print("                LimitMEMLOCK=infinity\n");
+    if (!locked) fmt::print("                LimitMEMLOCK={}M\n", kLockedMb);
     fmt::print(
         "            for somebody who logs in, in /etc/security/limits.d/eddy.conf (then log in anew):\n");
     if (!grant.fifo) fmt::print("                @eddy - rtprio {}\n", kHapticPriority);
-    if (!grant.memory_locked) fmt::print("                @eddy - memlock unlimited\n");
+    if (!locked) fmt::print("                @eddy - memlock {}\n", 1024 * kLockedMb);
 }
 
 /// How often each period came, in steps of 20 us; the last column has all that are longer.

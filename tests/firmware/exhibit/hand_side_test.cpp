@@ -1,6 +1,10 @@
 #include "firmware/exhibit/hand_side.h"
 
 #include <gmock/gmock.h>
+#include <linux/capability.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include "tests/mocks/mock_haptic_device.h"
 
@@ -22,7 +26,43 @@ TEST(HandSide, WithoutADeviceDoesNothingAndSaysSo) {
     hand.follow();
     EXPECT_EQ(hand.report().ticks, 0u);
     EXPECT_EQ(hand.name(), "none");
-    EXPECT_EQ(hand.complaint(), std::nullopt);
+    EXPECT_EQ(hand.grant_news(), std::nullopt);
+}
+
+/// From now on this thread, and those it starts, may not ask for a real-time priority.
+void give_up_priority() {
+    rlimit none{};
+    getrlimit(RLIMIT_RTPRIO, &none);
+    none.rlim_cur = 0;
+    setrlimit(RLIMIT_RTPRIO, &none);
+    __user_cap_header_struct head{_LINUX_CAPABILITY_VERSION_3, 0};
+    __user_cap_data_struct data[2]{};
+    ASSERT_EQ(syscall(SYS_capget, &head, data), 0);
+    for (auto* held : {&data[0].effective, &data[0].permitted, &data[0].inheritable})
+        *held &= ~(1U << CAP_SYS_NICE);
+    ASSERT_EQ(syscall(SYS_capset, &head, data), 0);
+}
+
+TEST(HandSide, SaysWhileItRunsThatItWasRefusedRealTime) {
+    std::thread([] {  // a thread of its own: what it gives up does not come back
+        give_up_priority();
+        auto device = std::make_unique<NiceMock<MockHapticDevice>>();
+        ON_CALL(*device, describe()).WillByDefault(Return("mock"));
+        RealClock clock;
+        HandSide hand(std::move(device), "mock", {}, {});
+        EXPECT_EQ(hand.grant_news(), std::nullopt) << "it does not run yet";
+        hand.start(clock);
+        std::optional<std::string> news;
+        for (int i = 0; i < 500 && !news; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            news = hand.grant_news();
+        }
+        EXPECT_THAT(
+            news.value_or("nothing"),
+            testing::StartsWith("the haptic thread has no real-time priority (Operation not permitted)"));
+        EXPECT_EQ(hand.grant_news(), std::nullopt) << "once";
+    })
+        .join();
 }
 
 TEST(HandSide, SendsZeroLastWhenItIsDestroyed) {

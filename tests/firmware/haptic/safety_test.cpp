@@ -54,6 +54,13 @@ const std::vector<Condition>& conditions() {
              r.device.answers = false;
              r.run(19);
          }},
+        {"the device is not sure where the handle is, for longer than a moment", GateReason::DeviceUnsure,
+         [](LoopRig& r) {
+             r.device.sure = false;
+             r.tick();
+             EXPECT_EQ(r.device.commanded_n, glm::dvec3(0.0)) << "at once, too";
+             r.run(100);
+         }},
         {"faster than a hand", GateReason::TooFast,
          [](LoopRig& r) {
              const Instant start = r.now();
@@ -98,6 +105,7 @@ TEST(Safety, AfterEachTheForceComesBackSoftlyOrNotAtAll) {
         rig.device.path = path;
         rig.device.is = HapticState::Ready;
         rig.device.answers = true;
+        rig.device.sure = true;
         rig.fluid.force_n = {0.0, 5.0, 0.0};
         rig.run(20);  // the fluid's next answer
         rig.orders.enabled = true;

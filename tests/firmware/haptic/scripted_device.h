@@ -14,6 +14,7 @@ struct ScriptedDevice final : HapticDevice {
     std::function<glm::dvec3(Seconds)> path = [](Seconds) { return glm::dvec3(0.0); };
     HapticState is = HapticState::Ready;
     bool answers = true;
+    bool sure = true;
 
     std::optional<HandleReading> waiting;
     Seconds last_reply{-std::numeric_limits<double>::infinity()};
@@ -32,6 +33,7 @@ struct ScriptedDevice final : HapticDevice {
         zeros_in_a_row = force_n == glm::dvec3(0.0) ? zeros_in_a_row + 1 : 0;
     }
     void show(const HandleLight& shown) override { light = shown; }
+    bool obeys() const override { return sure; }
     HapticState state() const override { return is; }
     HapticCounters counters() const override { return {}; }
     Seconds silence(Instant now) const override { return Seconds(now) - last_reply; }
