@@ -18,6 +18,7 @@ class RandomHand final : public HapticDevice {
     void poll(Instant now) override;
     std::optional<HandleReading> read() override;
     void command(const glm::dvec3&) override {}
+    bool obeys() const override { return state_ == HapticState::Ready && act_ != Act::Silent; }
     void show(const HandleLight&) override {}
     HapticState state() const override { return state_; }
     HapticCounters counters() const override { return {}; }
