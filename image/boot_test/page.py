@@ -17,6 +17,7 @@ whatever else the computer underneath does; in the others it is the clock on the
 """
 
 PARTS = {"fast": "## Each time (`image/boot-test`)",
+         "quick": "## With every change (`image/boot-test --quick`, the part of it that CI takes)",
          "updates": "## Updates (`image/boot-test --updates`)",
          "cuts": "## Power cuts (`image/boot-test --cuts N`)"}
 
