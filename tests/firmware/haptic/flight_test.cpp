@@ -17,6 +17,7 @@
 #include "firmware/input_error.h"
 #include "loop_rig.h"
 #include "tests/allocations.h"
+#include "tests/scratch_folder.h"
 
 namespace eddy {
 namespace {
@@ -89,20 +90,19 @@ TEST(Flight, ThatWasWrittenAndReadRunsAgainBitForBitToo) {
 constexpr const char* kFlightToRun = "EDDY_FLIGHT_TO_RUN";
 
 TEST(Flight, InAFileRunsAgainBitForBit) {
-    const std::string own = testing::TempDir() + "own.flight";
+    const ScratchFolder folder;
     const char* given = std::getenv(kFlightToRun);
-    if (!given) std::ofstream(own, std::ios::binary) << flight_text(unplugged());
-    std::ifstream in(given ? given : own.c_str(), std::ios::binary);
+    const std::string file = given ? given : folder.write("own.flight", flight_text(unplugged()));
+    std::ifstream in(file, std::ios::binary);
     const Rerun again = rerun(read_flight(std::string{std::istreambuf_iterator<char>(in), {}}, "f"));
     EXPECT_EQ(again.differing, 0U) << "of " << again.outputs.size() << ", by " << again.most_n
                                    << " N at most";
-    std::filesystem::remove(own);
 }
 
 // The C library takes other functions on other processors, and they round otherwise: here those of one without fused products.
 TEST(Flight, RunsAgainBitForBitOnAnOlderProcessor) {
-    const std::string file = testing::TempDir() + "older_processor.flight";
-    std::ofstream(file, std::ios::binary) << flight_text(unplugged());
+    const ScratchFolder folder;
+    const std::string file = folder.write("older_processor.flight", flight_text(unplugged()));
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
@@ -115,7 +115,6 @@ TEST(Flight, RunsAgainBitForBitOnAnOlderProcessor) {
     int status = -1;
     ASSERT_EQ(waitpid(child, &status, 0), child);
     EXPECT_EQ(status, 0) << "the child says what differs";
-    std::filesystem::remove(file);
 }
 
 TEST(Flight, SaysTheFirstTickInWhichALawOfAnotherKindDiffers) {
