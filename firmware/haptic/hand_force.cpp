@@ -17,9 +17,9 @@ constexpr double kLaterShare = 0.6;
 glm::dvec3 HandForce::operator()(const FluidSnapshot& fluid, bool fresh, const HapticOrders& orders,
                                  const HandAtTick& hand, Seconds dt) {
     const double gain = orders.gain, scale = orders.tank_from_device.scale;
+    follow(hand, scale, dt);
     if (law_ == ForceLaw::Filter) return filter_(gain * fluid.force_n, fluid.fluid_period, dt);
 
-    follow(hand, scale, dt);
     // Slopes are those of the tank; the handle moves 1 / scale as far, and feels gain times as much.
     const double at_handle = gain * scale;
     const SlopeBounds bounds = at_handle > 0.0 ? SlopeBounds{most_drag_ns_m(fluid.fluid_period) / at_handle,

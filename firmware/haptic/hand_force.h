@@ -30,6 +30,11 @@ class HandForce {
     /// Newtons on the hand, before walls and gate. `fresh`: this answer was not there in the last tick.
     glm::dvec3 operator()(const FluidSnapshot& fluid, bool fresh, const HapticOrders& orders,
                           const HandAtTick& hand, Seconds dt);
+    /// Where the fluid is told that a body is which the encoders show at `body_m` (Tank frame): it differences places twice, and to
+    /// it each step of an encoder would be a blow.
+    glm::dvec3 between_counts(const glm::dvec3& body_m, double scale) const {
+        return scale * hand_.near(body_m / scale);
+    }
     /// After a tick whose force did not reach the hand.
     void interrupted() { passivity_.begin_anew(); }
 

@@ -25,6 +25,14 @@ PoseSnapshot pose_in_tank(const LawState& state, const HapticInput& in, bool kno
             .known = known};
 }
 
+/// Where the fluid is told that the body is: between the encoders' counts, and against a bound exactly there.
+glm::dvec3 told_m(const HandForce& force, const glm::dvec3& body_m, const HapticOrders& orders) {
+    const glm::dvec3 between = force.between_counts(body_m, orders.tank_from_device.scale);
+    const glm::dvec3 free = glm::dvec3(glm::greaterThan(body_m, orders.lowest_m)) *
+                            glm::dvec3(glm::lessThan(body_m, orders.highest_m));
+    return glm::mix(body_m, glm::min(glm::max(between, orders.lowest_m), orders.highest_m), free);
+}
+
 /// Age counts from arrival, not from computed_for: solving and reading back take two fluid periods of their
 /// own, and a fluid that answers steadily, however late, is alive.
 bool is_stale(const FluidSnapshot& fluid, Instant age) {
@@ -74,6 +82,7 @@ LawOutput law(LawState& state, const HapticInput& in, Seconds dt) {
         .body_m = out.pose.position_m};
     out.filtered_n = state.force(in.fluid, fresh, in.orders, hand, dt) +
                      soft_wall_n(in.orders, state.hand.position_m(), state.hand.velocity_m_s());
+    if (out.pose.known) out.pose.position_m = told_m(state.force, out.pose.position_m, in.orders);
     const GateInput gate{.force_n = out.filtered_n,
                          .most_n = in.orders.most_n,
                          .speed_m_s = sound ? glm::length(state.hand.velocity_m_s())

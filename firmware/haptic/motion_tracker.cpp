@@ -44,6 +44,13 @@ void MotionTracker::take(const glm::dvec3& position_m, Instant at) {
     at_ = at;
 }
 
+glm::dvec3 MotionTracker::near(const glm::dvec3& position_m) const {
+    if (!at_) return position_m;
+    const glm::dvec3 away = position_m_ - position_m;
+    const double far_m = glm::length(away);
+    return position_m + (far_m > kExpectedM ? kExpectedM / far_m : 1.0) * away;
+}
+
 bool MotionTracker::is_sound() const {
     return eddy::is_sound(at_) && (!at_ || eddy::is_sound(*at_));
 }

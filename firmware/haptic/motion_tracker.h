@@ -25,6 +25,8 @@ class MotionTracker {
     /// The next position starts anew.
     void forget();
 
+    /// Where it most likely is, between the steps of the encoders; never further than kExpectedM from `position_m`, the newest.
+    glm::dvec3 near(const glm::dvec3& position_m) const;
     const glm::dvec3& velocity_m_s() const { return velocity_m_s_; }
     const glm::dvec3& acceleration_m_s2() const { return acceleration_m_s2_; }
     /// Its bytes are a state that it can be in (sound.h).

@@ -65,12 +65,33 @@ TEST(Law, PoseIsTheHandleCarriedIntoTheTank) {
     for (int i = 0; i < 200; ++i) {
         bench.handle_m = glm::dvec3(0.1e-3 * i, 0.0, -0.05e-3 * i);  // 0.1, 0, -0.05 m/s
         const LawOutput out = bench.tick();
-        EXPECT_NEAR(glm::length(out.pose.position_m - (glm::dvec3(0.1) + 2.0 * bench.handle_m)), 0.0, 1e-15);
+        // Between the steps of an encoder, where it most likely is.
+        EXPECT_LE(glm::length(out.pose.position_m - (glm::dvec3(0.1) + 2.0 * bench.handle_m)),
+                  2.0 * MotionTracker::kExpectedM * (1.0 + 1e-9));
         EXPECT_EQ(out.pose.sequence, static_cast<std::uint64_t>(i + 1));
         EXPECT_EQ(out.pose.time, bench.in.now);
         EXPECT_EQ(out.pose.buttons, 5);
     }
     EXPECT_NEAR(glm::length(bench.tick().pose.velocity_m_s), 0.22, 0.05);
+    const PoseSnapshot rests = bench.run(1000).pose;
+    EXPECT_NEAR(glm::length(rests.position_m - (glm::dvec3(0.1) + 2.0 * bench.handle_m)), 0.0, 1e-9);
+}
+
+TEST(Law, TheFluidSeesNoStepsOfTheEncoders) {
+    const double count_m = 63.5e-6;
+    for (const ForceLaw force : {ForceLaw::Filter, ForceLaw::Model}) {
+        Bench bench;
+        bench.state.force = HandForce(force, {});
+        double before = 0.0, most_off = 0.0;
+        for (int i = 0; i < 1000; ++i) {
+            bench.handle_m.x =
+                count_m * std::round(0.02e-3 * i / count_m);  // 0.02 m/s, a count in three ticks
+            const double x = bench.tick().pose.position_m.x;
+            if (i >= 500) most_off = std::max(most_off, std::abs(x - before - 2.0 * 0.02e-3));
+            before = x;
+        }
+        EXPECT_LT(most_off, 0.1 * 2.0 * count_m);  // as it is read, 2/3 of a count
+    }
 }
 
 TEST(Law, BodyStaysInsideItsBoundsAndStandsStillAgainstThem) {

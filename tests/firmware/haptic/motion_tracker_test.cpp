@@ -62,6 +62,45 @@ TEST(MotionTracker, EncoderCountsHardlyShowInTheVelocity) {
     EXPECT_LT(std::sqrt(sum / 2000.0), 1e-3);
 }
 
+TEST(MotionTracker, EncoderCountsHardlyShowInThePlaceThatAFluidDifferencesTwice) {
+    const double count_m = 63.5e-6, w = 2.0 * std::numbers::pi;
+    MotionTracker tracker;
+    std::vector<double> read_m, near_m, true_m;
+    double furthest_m = 0.0;
+    for (int ms = 0; ms < 3000; ++ms) {
+        const double x = 0.02 * std::sin(w * 1e-3 * ms), read = count_m * std::round(x / count_m);
+        tracker.take({read, 0.0, 0.0}, milliseconds(ms));
+        const double near = tracker.near({read, 0.0, 0.0}).x;
+        furthest_m = std::max(furthest_m, std::abs(near - read));
+        if (ms < 1000 || ms % 20 != 0) continue;  // a fluid at 50 steps a second
+        read_m.push_back(read);
+        near_m.push_back(near);
+        true_m.push_back(x);
+    }
+    // What the steps add to the second difference, as a root of the mean square.
+    const auto added_m = [&](const std::vector<double>& seen_m) {
+        double sum = 0.0;
+        for (std::size_t i = 2; i < seen_m.size(); ++i) {
+            const auto second = [i](const std::vector<double>& x) {
+                return x[i] - 2.0 * x[i - 1] + x[i - 2];
+            };
+            sum += std::pow(second(seen_m) - second(true_m), 2);
+        }
+        return std::sqrt(sum / static_cast<double>(seen_m.size() - 2));
+    };
+    EXPECT_LT(added_m(near_m), 0.5 * added_m(read_m));  // measured: 13 and 45 um
+    EXPECT_LE(furthest_m, MotionTracker::kExpectedM * (1.0 + 1e-9));
+}
+
+TEST(MotionTracker, WhoRestsIsWhereHeIsRead) {
+    MotionTracker tracker = tracked([](double t) { return 0.3 * std::min(t, 0.5); }, 2000);
+    EXPECT_NEAR(tracker.near({0.15, 0.0, 0.0}).x, 0.15, 1e-9);
+    const glm::dvec3 leapt(0.2, 0.1, 0.0);
+    EXPECT_NEAR(glm::length(tracker.near(leapt) - leapt), MotionTracker::kExpectedM, 1e-12);
+    tracker.forget();
+    EXPECT_EQ(tracker.near(leapt), leapt);
+}
+
 TEST(MotionTracker, ALateTickChangesNothing) {
     MotionTracker every, some;
     const auto x = [](double t) { return glm::dvec3(0.2 * t + 1.5 * t * t, 0.0, 0.0); };
