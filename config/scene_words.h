@@ -18,7 +18,7 @@ inline constexpr Word<WallKind> kWallKinds[] = {
     {WallKind::Slip, "slip", "no flow through, no friction along"},
     {WallKind::NoSlip, "no_slip", "the fluid sticks to it; velocity_m_s moves it along itself"},
     {WallKind::Inflow, "inflow", "fluid enters with velocity_m_s"},
-    {WallKind::Open, "open", "fluid leaves or enters freely; the pressure there is 0"},
+    {WallKind::Open, "open", "fluid leaves freely, or comes in from rest; the pressure there is 0"},
 };
 inline constexpr Word<BodyShape> kBodyShapes[] = {
     {BodyShape::Sphere, "sphere", ""},

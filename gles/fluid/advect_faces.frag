@@ -25,5 +25,6 @@ void main() {
     vec3 x = s - sound(dt_h * v.x, FARTHEST), y = s - sound(dt_h * v.y, FARTHEST), z = s - sound(dt_h * v.z, FARTHEST);  // guard carrier
     vec3 u = vec3(sample_linear(velocity, FACES, x).x, sample_linear(velocity, FACES, y).y, sample_linear(velocity, FACES, z).z);
     u = sound(u, FARTHEST / dt_h);  // guard velocity
+    u *= vec3(from_rest(0, x), from_rest(1, y), from_rest(2, z));
     result = vec4(to_walls(u.x, 0, x), to_walls(u.y, 1, y), to_walls(u.z, 2, z), 0.0);
 }

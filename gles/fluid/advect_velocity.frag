@@ -25,5 +25,6 @@ void main() {
     ivec3 c = cell_here(FACES);
     vec3 s = vec3(c) + 0.5 - sound(dt_h * velocity_in_cell(carrier, c), FARTHEST);  // guard carrier
     vec3 u = sound(sample_linear(velocity, FACES, s).xyz, FARTHEST / dt_h);         // guard velocity
+    u *= vec3(from_rest(0, s), from_rest(1, s), from_rest(2, s));
     result = vec4(to_walls(u.x, 0, s), to_walls(u.y, 1, s), to_walls(u.z, 2, s), 0.0);
 }

@@ -21,6 +21,20 @@ float to_walls(float u, int component, vec3 s) {
 }
 #endif
 
+// The share that is left of one component when it is carried in from s. Before an opening the fluid is at rest, a cell away: along the
+// first half a cell inside, that takes u^2 / 2 of pressure (Bernoulli). If the fluid came in as fast as what is just inside, flow that
+// turns back at an opening would feed on itself and grow without bound (backflow instability: N. Ni, Z. Yang, S. Dong 2018,
+// "Energy-stable boundary conditions", arXiv:1807.07056).
+float from_rest(int component, vec3 s) {
+#ifdef THROUGH
+    vec3 x = s - 0.5 * vec3(equal(ivec3(component), ivec3(0, 1, 2)));
+    vec3 beyond = min(OPEN_LOW, 1.0) * max(-x, 0.0) + min(OPEN_HIGH, 1.0) * max(x - vec3(FACES.size - 1), 0.0);
+    return 1.0 - min(max(max(beyond.x, beyond.y), beyond.z), 1.0);  // guard backflow
+#else
+    return 1.0;
+#endif
+}
+
 // 0 where what is carried to here comes in through an inflow or an opening: clear fluid. s in texels of Cells.
 float from_inside(vec3 s) {
 #ifdef THROUGH

@@ -25,13 +25,15 @@ vec3 within_rows(int component, vec3 s) {
     return min(s, vec3(FACES.size) - 1.5 + vec3(equal(ivec3(component), ivec3(0, 1, 2))));
 }
 
-// One component; near a wall the fluid sticks to, the wall is a donor too.
+// One component; near a wall the fluid sticks to, the wall is a donor too. What comes in from outside has no error to take out: that it is
+// carried in at first order is what makes it take on u^2 / 2 a unit of mass, no more.
 float corrected(int component, vec3 s, vec3 displacement, vec4 here, vec4 ahead) {
     vec4 least, most;
     uvec4 bits;
     donors(velocity, FACES, s - displacement, least, most, bits);
     float back = to_walls(sample_linear(forward, FACES, within_rows(component, s + displacement))[component], component,
                           s + displacement);
+    if (from_rest(component, s - displacement) < 1.0) return ahead[component];  // guard backflow
     float donor = to_walls(ahead[component], component, s - displacement);
     return limited(ahead[component] + 0.5 * (here[component] - back), ahead[component], min(least[component], donor),
                    max(most[component], donor), bits[component], FARTHEST / dt_h);

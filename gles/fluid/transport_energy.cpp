@@ -18,8 +18,7 @@ bool TransportEnergy::needed(const FluidSetup& setup) {
     const bool may_act = acts(diffusion_number(setup, setup.shortest_step_s));
     return makes && may_act &&
            std::all_of(setup.walls.begin(), setup.walls.end(), [&](const WallSetup& wall) {
-               const bool closed = wall.kind == WallKind::Slip || wall.kind == WallKind::NoSlip;
-               return closed && wall.velocity_m_s.glsl == still.velocity_m_s.glsl;
+               return wall.kind != WallKind::Inflow && wall.velocity_m_s.glsl == still.velocity_m_s.glsl;
            });
 }
 

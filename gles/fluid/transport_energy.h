@@ -5,7 +5,7 @@
 
 namespace eddy::gles {
 
-/// Transport carries kinetic energy about; in a closed tank it makes none. MacCormack's correction and the reflection do make
+/// Transport carries kinetic energy about; where no wall blows any in it makes none. MacCormack's correction and the reflection do make
 /// some, a little in each step, and where there is hardly any friction nothing takes it out again: over thousands of steps eddies
 /// grew tenfold. So what comes out of transport is made slower all over, just so much that it has no more energy than went in.
 class TransportEnergy {
