@@ -88,17 +88,14 @@ std::vector<Case> wall_cases() {
          .provokes = "a pocket of its own: one more constant in its pressure, and no solution",
          .wants = "the pressure stays bounded, and does not drift unless it is small",
          .when_red = "what a piston displaces in a closed tube has nowhere to go, and no incompressible flow "
-                     "does that. Guard "
-                     "pocket bounds the pressure; what the solver cannot place it leaves in the layer before "
-                     "the piston, from "
-                     "where the fluid flows off to the whole pocket, at some five times the piston's speed "
-                     "where its face lies "
-                     "within a cell. "
-                     "Energy stays within the rule. By how much a pocket's pressure is above its neighbour's "
-                     "no equation says: "
-                     "a piston that has stopped feels what it felt last, for each step begins from the last "
-                     "pressure, until the pocket opens. "
-                     "The hand is held to its limits, and who does not move gets no force after some seconds",
+                     "does that. "
+                     "Guard pocket bounds the pressure; what the solver cannot place it leaves in the layer "
+                     "before the "
+                     "piston, from where the fluid flows off to the whole pocket, at some five times the "
+                     "piston's speed "
+                     "where its face lies within a cell. Energy stays within the rule. Guard pocket_level "
+                     "ends the push "
+                     "on a piston that has stopped; the hand is held to its limits",
          .change =
              [](Scene& s) {
                  const glm::dvec3& size = s.tank.size_m;

@@ -63,7 +63,7 @@ CutCellFluid::CutCellFluid(Gpu& gpu, FluidSetup setup)
     if (const auto smoke = Scalar::smoke(setup_)) smoke_.emplace(gpu, setup_, *smoke, walls_, solids);
     if (const auto heat = Scalar::temperature(setup_))
         temperature_.emplace(gpu, setup_, *heat, walls_, solids);
-    if (PressureLevel::needed(setup_)) pressure_level_.emplace(gpu, setup_);
+    if (fractions_) pressure_level_.emplace(gpu, setup_);
     if (Confinement::needed(setup_)) confinement_.emplace(gpu, setup_);
     if (TransportEnergy::needed(setup_)) transport_energy_.emplace(gpu, setup_);
     if (BodyForces::needed(setup_)) body_forces_.emplace(gpu, setup_);
@@ -165,7 +165,7 @@ Field<Cells4> CutCellFluid::advance(Part part, double start_s, std::vector<BodyS
     time_s_ = end_s;
     if (!second_half) {
         Gpu::Stage stage(gpu_, "pressure");
-        if (pressure_level_) phi_ = pressure_level_->put_right(phi_, sound_.most_phi);
+        if (pressure_level_) phi_ = pressure_level_->put_right(phi_, fractions_->level(0), sound_.most_phi);
         phi_ = pressure_.follow(std::move(phi_), since_last_pressure(part, bodies), sound_.most_phi);
     }
     if (viscosity_) {

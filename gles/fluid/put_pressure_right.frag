@@ -1,9 +1,12 @@
-// put_pressure_right.frag     phi -= mean of phi
+// put_pressure_right.frag     phi -= mean of phi; and a fifth of what is beyond N |grad phi|_4
 //
 // reads   phi   RGBA32F  Cells4 (nx, ny, nz)   [m/s]
-// reads   sum   RGBA32F, one texel: (sum of phi over all cells, 0, 0, 0)
+// reads   sum   RGBA32F, one texel: (sum of phi over all cells, of |grad phi|^4, 0, 0)
 // writes  phi   RGBA32F  Cells4                [m/s]
 // fetches 2
+//
+// The mean only in closed tanks. |grad phi|_4 is the gradient's fourth root of its mean fourth power, N cells the longest side:
+// an even gradient over the whole tank comes up to that, and what is around a body of any size stays below.
 #include "guard.glsl"
 
 uniform sampler2D phi, sum;
@@ -12,6 +15,11 @@ uniform float most_phi;
 out vec4 result;
 
 void main() {
-    float mean = texelFetch(sum, ivec2(0), 0).x / float(CELLS.x * CELLS.y * CELLS.z);
-    result = sound(texelFetch(phi, ivec2(gl_FragCoord.xy), 0), most_phi) - mean;  // guard level
+    vec4 p = sound(texelFetch(phi, ivec2(gl_FragCoord.xy), 0), most_phi);
+    vec2 means = texelFetch(sum, ivec2(0), 0).xy / float(CELLS.x * CELLS.y * CELLS.z);
+#ifdef CLOSED
+    p -= means.x;  // guard level
+#endif
+    float reach = float(max(max(CELLS.x, CELLS.y), CELLS.z)) * sqrt(sqrt(means.y));
+    result = p - 0.2 * (p - clamp(p, -reach, reach));  // guard pocket_level
 }

@@ -165,18 +165,12 @@ bool spreading(const Scene& s) {
 bool second_order(const Scene& s) {
     return s.solver.time_order == 2;
 }
-bool closed_with_bodies(const Scene& s) {
-    const auto walls = s.tank.walls.all();
-    return solved(s) && any_body(s) && std::none_of(walls.begin(), walls.end(), [](const Scene::Wall* wall) {
-               return wall->kind == WallKind::Open;
-           });
-}
 bool makes_energy(const Scene& s) {
     const auto walls = s.tank.walls.all();
-    const bool closed = std::all_of(walls.begin(), walls.end(), [](const Scene::Wall* wall) {
-        return (wall->kind == WallKind::Slip || wall->kind == WallKind::NoSlip) && !wall->velocity_m_s;
+    const bool still = std::all_of(walls.begin(), walls.end(), [](const Scene::Wall* wall) {
+        return wall->kind != WallKind::Inflow && !wall->velocity_m_s;
     });
-    return solved(s) && closed && (corrects(s) || second_order(s));
+    return solved(s) && still && (corrects(s) || second_order(s));
 }
 bool pushed(const Scene& s) {
     return s.fluid.gravity_m_s2 != glm::dvec3(0.0) || s.forcing;
@@ -216,17 +210,17 @@ const Caller kCallers[] = {
     {"keep pressure", thin},
     {"least residual", thin},
     {"owners", [](const Scene& s) { return s.outputs.force_methods; }},
-    {"pressure level", closed_with_bodies},
+    {"pressure level", any_body},
     {"project", solved},
     {"project cut", any_body},
     {"prolong", solved},
     {"reduce diagnosis", always},
     {"reduce health", always},
     {"reduce heat", warm},
-    {"reduce pressure level", closed_with_bodies},
+    {"reduce pressure level", any_body},
     {"reduce products", thin},
     {"reduce transport energy", makes_energy},
-    {"put pressure right", closed_with_bodies},
+    {"put pressure right", any_body},
     {"reflect", second_order},
     {"residual", thin},
     {"restrict residual", solved},

@@ -145,6 +145,21 @@ TEST_F(PocketsTest, WhenAPocketOpensTheFluidComesToRest) {
     EXPECT_LT(press(*fluid, 1, at({0.5, 0.08, 0.08})).fastest_m_s, 0.1);
 }
 
+TEST_F(PocketsTest, APistonThatStandsStillIsFeltNoMore) {
+    // In a sealed pocket any constant is a pressure; what the last squeeze left there is let go of.
+    for (const double viscosity : {0.0, 1.0}) {
+        FluidSetup setup = water(viscosity);
+        setup.bodies = {BodySetup{Cuboid{{0.3, 0.05, 0.3}}}};
+        const std::unique_ptr<Fluid> fluid = make_fluid(gpu, setup);
+        const glm::dvec3 middle(0.5 * kSideM);
+        const double squeezed_n = glm::length(press(*fluid, 25, at(middle, {0.0, -kSqueezeMS, 0.0})).force_n);
+        press(*fluid, 1, at(middle));  // the blow of stopping
+        const Pressed still = press(*fluid, 250, at(middle));
+        EXPECT_GT(squeezed_n, 1.0);
+        EXPECT_LT(glm::length(still.force_n), 0.01 * squeezed_n) << viscosity;
+    }
+}
+
 TEST_F(PocketsTest, ABodyThatLeavesAClosedTankStirsItNoFasterThanItGoes) {
     constexpr double kSpeedMS = 0.25;
     for (int wall = 0; wall < 6; ++wall)
