@@ -66,15 +66,18 @@ class EmulatedGpio::Requested final : public GpioLine {
         line().high = active != wish_.active_low;
     }
     int edges_fd() const override { return edges_; }
-    void forget_edges() override {
+    bool take_edges() override {
+        const std::lock_guard lock(shared_->mutex);
         std::uint64_t count = 0;
         if (edges_ >= 0 && ::read(edges_, &count, sizeof count) < 0 && errno != EAGAIN) fail(errno);
+        return std::exchange(rose_, false);
     }
 
     // With the lock held.
     const Spot& spot() const { return spot_; }
     void tell_edge() {
         const std::uint64_t one = 1;
+        rose_ |= !gone_ && edges_ >= 0 && line().high != wish_.active_low;
         if (edges_ >= 0 && ::write(edges_, &one, sizeof one) < 0 && errno != EAGAIN) fail(errno);
     }
     void lose() {
@@ -89,7 +92,7 @@ class EmulatedGpio::Requested final : public GpioLine {
     Spot spot_;
     GpioWish wish_;
     int edges_ = -1;
-    bool gone_ = false;
+    bool gone_ = false, rose_ = false;
 };
 
 void EmulatedGpio::add(const std::string& label, const std::vector<std::string>& line_names, bool edges) {

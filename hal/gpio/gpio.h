@@ -38,8 +38,8 @@ class GpioLine {
     virtual void set(bool active) = 0;
     /// A file that becomes readable when an input changes; -1: this chip tells no edges, ask active() again and again.
     virtual int edges_fd() const = 0;
-    /// Takes what waits there.
-    virtual void forget_edges() = 0;
+    /// Takes what waits there: whether the input became active meanwhile, however shortly.
+    virtual bool take_edges() = 0;
 };
 
 /// The GPIO of a machine. Real: libgpiod1.cpp or libgpiod2.cpp. Emulated: emulated_gpio.h.

@@ -16,8 +16,9 @@ std::optional<bool> KeptLine::read(Instant now) {
     if (!is_there(now)) return std::nullopt;
     try {
         // First: an edge that comes between the two is seen at the next call.
-        line_->forget_edges();
-        return line_->active();
+        const bool rose = line_->take_edges(), late = now - read_at_ > kLate;
+        read_at_ = now;
+        return line_->active() || (late && rose);
     } catch (const std::system_error& e) {
         lose(now, e.what());
         return std::nullopt;

@@ -12,6 +12,9 @@ class KeptLine {
   public:
     /// While it is away it is looked for so often.
     static constexpr Instant kRetry = std::chrono::seconds(1);
+    /// Who asks more seldom than this is told of a tap that came and went meanwhile. Else a finger is still there when the edge is
+    /// looked after, and what is not is a spark.
+    static constexpr Instant kLate = std::chrono::milliseconds(30);
     /// An output is said again so often, to find out that it is away.
     static constexpr Instant kSayAgain = std::chrono::seconds(1);
 
@@ -19,7 +22,7 @@ class KeptLine {
     KeptLine(Gpio& gpio, std::string address, const GpioWish& wish);
 
     bool wanted() const { return !address_.empty(); }
-    /// Whether it is active; nothing while it is away.
+    /// Whether it is active, or was since it was asked before if that is long ago; nothing while it is away.
     std::optional<bool> read(Instant now);
     void write(Instant now, bool active);
     /// As GpioLine::edges_fd(); -1 too while it is away.
@@ -37,6 +40,7 @@ class KeptLine {
     GpioWish wish_;
     std::unique_ptr<GpioLine> line_;
     std::optional<Instant> tried_at_;
+    Instant read_at_{0};
     std::optional<bool> written_;
     Instant written_at_{0};
     std::string trouble_;

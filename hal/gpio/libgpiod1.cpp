@@ -54,11 +54,15 @@ class Line final : public GpioLine {
         if (gpiod_line_set_value(line_, active ? 1 : 0) < 0) fail("write");
     }
     int edges_fd() const override { return edges_ ? gpiod_line_event_get_fd(line_) : -1; }
-    void forget_edges() override {
+    bool take_edges() override {
         pollfd waiting{edges_fd(), POLLIN, 0};
         gpiod_line_event event;
-        while (waiting.fd >= 0 && poll(&waiting, 1, 0) > 0 && (waiting.revents & POLLIN) != 0)
-            if (gpiod_line_event_read(line_, &event) < 0) return;  // active() will say why
+        bool rose = false;
+        while (waiting.fd >= 0 && poll(&waiting, 1, 0) > 0 && (waiting.revents & POLLIN) != 0) {
+            if (gpiod_line_event_read(line_, &event) < 0) break;  // active() will say why
+            rose |= event.event_type == GPIOD_LINE_EVENT_RISING_EDGE;
+        }
+        return rose;
     }
 
   private:

@@ -67,11 +67,19 @@ class Line final : public GpioLine {
             fail("write");
     }
     int edges_fd() const override { return edges_ ? gpiod_line_request_get_fd(request_.get()) : -1; }
-    void forget_edges() override {
+    bool take_edges() override {
         pollfd waiting{edges_fd(), POLLIN, 0};
-        while (waiting.fd >= 0 && poll(&waiting, 1, 0) > 0 && (waiting.revents & POLLIN) != 0)
-            if (gpiod_line_request_read_edge_events(request_.get(), events_.get(), 16) < 0)
-                return;  // active() will say why
+        bool rose = false;
+        while (waiting.fd >= 0 && poll(&waiting, 1, 0) > 0 && (waiting.revents & POLLIN) != 0) {
+            const int events = gpiod_line_request_read_edge_events(request_.get(), events_.get(), 16);
+            if (events < 0) break;  // active() will say why
+            for (int i = 0; i < events; ++i) {
+                gpiod_edge_event* event =
+                    gpiod_edge_event_buffer_get_event(events_.get(), static_cast<unsigned long>(i));
+                rose |= gpiod_edge_event_get_event_type(event) == GPIOD_EDGE_EVENT_RISING_EDGE;
+            }
+        }
+        return rose;
     }
 
   private:

@@ -158,6 +158,26 @@ TEST(Panel, SeesTheStopInputTheFirstTimeItLooks) {
     EXPECT_TRUE(desk.stopped());
 }
 
+TEST(Panel, ATapOnTheStopThatComesAndGoesWhileNobodyLooksCountsAndASparkDoesNot) {
+    GpioConfig config = all_wired();
+    config.stop = "S";
+    Desk desk(config);
+    desk.gpio.add("board", {"S"});
+    desk.gpio.set_high("S", false);
+    const auto tap = [&] {
+        desk.gpio.set_high("S", true);
+        desk.gpio.set_high("S", false);
+    };
+    desk.run(100ms);
+    ASSERT_FALSE(desk.stopped());
+    tap();
+    desk.work.work(desk.now);  // woken by the edge, in time
+    EXPECT_FALSE(desk.stopped()) << "no finger is as quick as that";
+    tap();
+    desk.work.work(desk.now += 100ms);  // the machine was busy
+    EXPECT_TRUE(desk.stopped());
+}
+
 TEST(Panel, AStopIsLetGoWhenItRests) {
     Desk desk;
     desk.run(100ms);
@@ -491,7 +511,7 @@ class HangingGpio final : public Gpio {
         }
         void set(bool active) override { line_->set(active); }
         int edges_fd() const override { return line_->edges_fd(); }
-        void forget_edges() override { line_->forget_edges(); }
+        bool take_edges() override { return line_->take_edges(); }
 
       private:
         const HangingGpio& gpio_;

@@ -215,19 +215,20 @@ TEST_P(GpioContract, TellsOfEdgesUntilTheyAreTaken) {
     EXPECT_FALSE(readable(line->edges_fd()));
     for (int i = 0; i < 40; ++i) bench->set_high("header", 2, i % 2 == 1);
     EXPECT_TRUE(readable(line->edges_fd()));
-    line->forget_edges();
+    EXPECT_TRUE(line->take_edges()) << "it became active, and idle again, and active";
     EXPECT_FALSE(readable(line->edges_fd()));
     EXPECT_TRUE(line->active());
-    line->forget_edges();
+    EXPECT_FALSE(line->take_edges());
     bench->set_high("header", 2, false);
     EXPECT_TRUE(readable(line->edges_fd()));
+    EXPECT_FALSE(line->take_edges()) << "it became idle";
 }
 
 TEST_P(GpioContract, AChipWithoutEdgesIsRead) {
     NEEDS_HANDS();
     const auto line = open("bridge:1");
     EXPECT_EQ(line->edges_fd(), -1);
-    line->forget_edges();
+    EXPECT_FALSE(line->take_edges());
     bench->set_high("bridge", 1, true);
     EXPECT_TRUE(line->active());
     bench->set_high("bridge", 1, false);
@@ -297,7 +298,7 @@ TEST(Libgpiod, WhoWaitsForAnEdgeIsWokenWhenTheChipGoes) {
     EXPECT_FALSE(readable(line->edges_fd()));
     bench.unplug_bridge();
     EXPECT_TRUE(readable(line->edges_fd()));
-    line->forget_edges();
+    line->take_edges();
     EXPECT_EQ(error_of([&] { line->active(); }), ENODEV);
 }
 
