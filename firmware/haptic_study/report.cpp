@@ -126,8 +126,9 @@ Scenes are computed on {} cells along the longest side. {}
 
 The hand goes round a circle of 20 mm once a second. The reference is the same fluid with a step in every millisecond and the hand
 where it really is. Roughness: what is felt less the reference, 10 to 400 Hz, as a share of the reference; trembling: of what is felt alone.
-A scene's own fluid trembles as the body crosses its grid, at 1 kHz as well, and resists otherwise when its steps are longer; both count as
-roughness and error here though no law can change them. After the circle the hand rests and sets off at 0.1 m/s: half of what that changes the force by after so long.
+A scene's own fluid trembles as the body crosses its grid, at 1 kHz as well (of the reference), and resists otherwise when its steps are
+longer; both count as roughness and error here, and are not the law's. The rest of the roughness is: by squares, since the two know nothing of
+each other. After the circle the hand rests and sets off at 0.1 m/s: half of what that changes the force by after so long.
 In a jet the stream's own force is in the way: when the hand's part of it comes is not to be read there from the last time.
 At 1000 answers a second the encoders are what is rough: a count in a millisecond is an acceleration.
 {}{}
