@@ -16,6 +16,9 @@ Case swirls(double strength_1_s) {
             .title = fmt::format("vorticity confinement of {:g} 1/s while the ball stirs", strength_1_s),
             .provokes = "a force along the flow: energy is pumped in without bound",
             .wants = "kinetic energy levels off, or is far below that of a tank as fast as the ball",
+            .when_red =
+                "confinement gives eddies back what friction takes of them, as it is meant to: on few cells "
+                "they are as large as the ball, which feels them for longer than it would without",
             .change =
                 [strength_1_s](Scene& s) {
                     s.vorticity_confinement.emplace().strength_1_s = strength_1_s;
